@@ -1,0 +1,106 @@
+"""Errors for people: what is wrong, in which file and element, with which value, and the cure."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+
+class RoverPinError(Exception):
+    """Base of every error that rover_pin raises on purpose.
+
+    Attributes:
+        what: what is wrong, in a clause.
+        file: the file it stands in, or None.
+        element: the joint, link, wheel, key or flag concerned, or None.
+        value: the offending value, or None.
+        cure: what to do about it, or None.
+        problem: the failed numerical problem (matrices, iterates), where there is one.
+    """
+
+    def __init__(
+        self,
+        what: str,
+        *,
+        file: object = None,
+        element: str | None = None,
+        value: object = None,
+        cure: str | None = None,
+        problem: object = None,
+    ) -> None:
+        self.what = what
+        self.file = None if file is None else str(file)
+        self.element = element
+        self.value = value
+        self.cure = cure
+        self.problem = problem
+        super().__init__(str(self))
+
+    def __str__(self) -> str:
+        """One line: `file: element: what (got value); cure`."""
+        head = ": ".join(part for part in (self.file, self.element) if part)
+        text = f"{head}: {self.what}" if head else self.what
+        if self.value is not None:
+            text += f" (got {self.value!r})" if isinstance(self.value, str) else f" (got {self.value})"
+        if self.cure:
+            text += f"; {self.cure}"
+        return " ".join(text.split())
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Pickle by fields, so that the error crosses process boundaries whole."""
+        fields = (self.what, self.file, self.element, self.value, self.cure)
+        return (_rebuild, (type(self), *fields))
+
+
+def _rebuild(
+    kind: type[RoverPinError], what: str, file: str | None, element: str | None, value: object, cure: str | None
+) -> RoverPinError:
+    return kind(what, file=file, element=element, value=value, cure=cure)
+
+
+class InputError(RoverPinError, ValueError):
+    """Something the user gave cannot be used; the command line exits with status 2."""
+
+
+class DescriptionError(InputError):
+    """A URDF or xacro file that cannot be used."""
+
+
+class SidecarError(InputError):
+    """A sidecar (`rover.yaml`) that cannot be used."""
+
+
+class MechanismError(InputError):
+    """Loops, couplings, springs or locks that contradict each other or the joints."""
+
+
+class PostureError(InputError):
+    """A posture or joint value that the rover cannot take."""
+
+
+class TerrainError(InputError):
+    """A height map or terrain word that cannot be used."""
+
+
+class OffMapError(TerrainError):
+    """The place asked for is not on the map."""
+
+
+class StudyError(InputError):
+    """A study file, a dataset or a run that cannot be used."""
+
+
+class SolverError(RoverPinError):
+    """A numerical problem that failed where an answer was owed; `problem` keeps it."""
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """A cure that names the nearest known names: `did you mean 'a' or 'b'?`, else the list of what there is."""
+    names = sorted(set(known))
+    close = difflib.get_close_matches(name, names, n=3, cutoff=0.5)
+    if close:
+        return "did you mean " + " or ".join(repr(c) for c in close) + "?"
+    if not names:
+        return "there are none"
+    shown = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
+    return f"known: {shown}"

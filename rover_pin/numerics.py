@@ -1,0 +1,31 @@
+"""How the project compiles its formulas, and the array types it hands out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import numba
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def formula(function: F) -> F:
+    """Compile a pure function of numbers and float64 arrays; cached on disk, IEEE arithmetic (no fastmath).
+
+    The function stays a plain Python function in meaning: one mathematics for the plain path, which calls
+    it case by case, and for batches, which compile it into their own loops.
+    """
+    compiled: F = numba.njit(cache=True, error_model="numpy")(function)
+    return compiled
+
+
+def frozen(values: ArrayLike) -> Array:
+    """A read-only float64 copy of `values`: what a public attribute holds."""
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array
