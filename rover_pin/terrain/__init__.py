@@ -1,0 +1,1 @@
+"""Terrain: height, gradient and normal of one surface, whoever asks."""
