@@ -24,6 +24,15 @@ def formula(function: F) -> F:
     return compiled
 
 
+def inlined(function: F) -> F:
+    """A formula that is compiled into its callers: for short ones on arrays, called in the innermost loop.
+
+    Passing arrays to a compiled function that is not inlined costs some 20 ns in reference counts.
+    """
+    compiled: F = numba.njit(cache=True, error_model="numpy", forceinline=True)(function)
+    return compiled
+
+
 def frozen(values: ArrayLike) -> Array:
     """A read-only float64 copy of `values`: what a public attribute holds."""
     array = np.array(values, dtype=np.float64)

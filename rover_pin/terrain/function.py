@@ -66,7 +66,7 @@ class HeightFunction:
             raise TerrainError(
                 "the terrain's function cannot be sent to another process",
                 value=f"{type(error).__name__}: {error}",
-                cure="define it with def at the top level of a module that can be imported, or use engine='serial'",
+                cure="define it with def at the top of a module that can be imported, or use engine='serial'",
             ) from error
         return (HeightFunction, (*self._given, self.extent, self.spacing))
 

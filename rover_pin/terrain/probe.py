@@ -123,7 +123,7 @@ def _choose(
 
 
 def probe_points(extent: Extent, spacing: float) -> tuple[Array, Array]:
-    """A handful of points over the extent: its corners and places inside, or near the origin where unbounded."""
+    """A few points of the extent: its corners and places inside, or near the origin where unbounded."""
     reach = 20.0 * spacing
     ends = []
     for low, high in (extent[:2], extent[2:]):

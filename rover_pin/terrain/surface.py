@@ -19,7 +19,7 @@ import math
 
 from numba import objmode
 
-from rover_pin.numerics import Array, formula
+from rover_pin.numerics import Array, formula, inlined
 from rover_pin.terrain.function import Six, evaluate
 
 PLANE = 0
@@ -49,7 +49,7 @@ def surface(kind: int, table: Array, params: Array, x: float, y: float) -> Six:
     return offset + scale * h, scale * hx, scale * hy, scale * hxx, scale * hxy, scale * hyy
 
 
-@formula
+@inlined
 def smooth(c: Array, params: Array, x: float, y: float) -> Six:
     """Biquadratic B-spline over coefficients `c` [m], whose border of one is the mirror of its inside.
 
@@ -91,7 +91,7 @@ def smooth(c: Array, params: Array, x: float, y: float) -> Six:
     return h, hx, hy, hxx, hxy, hyy
 
 
-@formula
+@inlined
 def linear(z: Array, params: Array, x: float, y: float) -> Six:
     """Bilinear between the four nodes about the point; on a line of nodes the cell above it counts."""
     spacing = params[4]
