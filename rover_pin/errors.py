@@ -53,7 +53,12 @@ class RoverPinError(Exception):
 
 
 def _rebuild(
-    kind: type[RoverPinError], what: str, file: str | None, element: str | None, value: object, cure: str | None
+    kind: type[RoverPinError],
+    what: str,
+    file: str | None,
+    element: str | None,
+    value: object,
+    cure: str | None,
 ) -> RoverPinError:
     return kind(what, file=file, element=element, value=value, cure=cure)
 

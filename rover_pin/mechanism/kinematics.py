@@ -1,0 +1,72 @@
+"""One configuration of the Pinocchio model, with the points and Jacobians that elements ask for."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pinocchio as pin
+
+from rover_pin.numerics import Array
+
+
+class Kinematics:
+    """Forward kinematics and joint Jacobians of `model` at `q`, computed once.
+
+    The model's configuration is a plain vector (base as x, y, z and ZYX Euler angles), so that a Jacobian
+    with respect to velocities is the derivative with respect to `q`.
+
+    Args:
+        model: Pinocchio model with nq == nv.
+        data: its data; overwritten by the next `Kinematics` made with it.
+        q: (nv,) configuration [m, rad].
+    """
+
+    def __init__(self, model: Any, data: Any, q: Array) -> None:
+        self.model = model
+        self.data = data
+        self.q = q
+        pin.computeJointJacobians(model, data, q)
+        self._jacobians: dict[int, Array] = {}
+
+    def rotation(self, joint: int) -> Array:
+        """(3, 3) rotation of the joint's frame in the world."""
+        rotation: Array = self.data.oMi[joint].rotation
+        return rotation
+
+    def origin(self, joint: int) -> Array:
+        """(3,) m, the joint frame's origin in the world."""
+        origin: Array = self.data.oMi[joint].translation
+        return origin
+
+    def point(self, joint: int, local: Array) -> Array:
+        """(3,) m, world place of a point given in the joint's frame."""
+        placement = self.data.oMi[joint]
+        world: Array = placement.rotation @ local + placement.translation
+        return world
+
+    def joint_jacobian(self, joint: int) -> Array:
+        """(6, nv) linear and angular rows of the joint frame's origin, along world axes."""
+        found = self._jacobians.get(joint)
+        if found is None:
+            if joint == 0:
+                found = np.zeros((6, self.model.nv))
+            else:
+                found = pin.getJointJacobian(self.model, self.data, joint, pin.LOCAL_WORLD_ALIGNED)
+            self._jacobians[joint] = found
+        return found
+
+    def angular_jacobian(self, joint: int) -> Array:
+        """(3, nv) angular velocity of the joint's body, along world axes."""
+        return self.joint_jacobian(joint)[3:]
+
+    def point_jacobian(self, joint: int, world: Array) -> Array:
+        """(3, nv) velocity of the point of the joint's body that is now at `world`."""
+        jacobian = self.joint_jacobian(joint)
+        x, y, z = world - self.origin(joint)
+        turning = jacobian[3:]
+        result = jacobian[:3].copy()
+        result[0] += z * turning[1] - y * turning[2]
+        result[1] += x * turning[2] - z * turning[0]
+        result[2] += y * turning[0] - x * turning[1]
+        return result

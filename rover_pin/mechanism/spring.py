@@ -1,0 +1,189 @@
+"""Springs, on a joint or between two frames, with preload, rest length and stop."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field
+
+from rover_pin.errors import MechanismError, SidecarError, nearest
+from rover_pin.mechanism.frames import BodyFrame, FrameSpec
+from rover_pin.mechanism.kinematics import Kinematics
+from rover_pin.numerics import Array
+
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+Stiffness = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
+
+
+class JointSpringSpec(BaseModel):
+    """`{name: s, joint: bogie_l, stiffness: 40, rest: 0.1, preload: 2}`."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    name: str
+    joint: str
+    stiffness: Stiffness
+    rest: Finite = 0.0
+    preload: Finite = 0.0
+
+    def resolve(self, columns: Mapping[str, int], *, file: object = None) -> JointSpring:
+        """The spring on its configuration entry.
+
+        Raises:
+            SidecarError: a joint that the model does not have.
+        """
+        if self.joint not in columns:
+            raise SidecarError(
+                "no moving joint of this name",
+                file=file,
+                element=f"springs.{self.name}",
+                value=self.joint,
+                cure=nearest(self.joint, columns),
+            )
+        return JointSpring(
+            self.name, self.joint, columns[self.joint], self.stiffness, self.rest, self.preload
+        )
+
+
+class FrameSpringSpec(BaseModel):
+    """`{name: s, frames: [a, b], stiffness: 12000, preload: 60, length_max: 0.15}`."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    name: str
+    frames: tuple[str | FrameSpec, str | FrameSpec]
+    stiffness: Stiffness
+    preload: Finite = 0.0
+    length_max: Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+
+    def resolve(self, model: Any, *, file: object = None) -> FrameSpring:
+        """The spring between two places on the model's bodies.
+
+        Raises:
+            SidecarError: a frame that the model does not have, or both on one body.
+        """
+        element = f"springs.{self.name}"
+        ends = []
+        for spec in self.frames:
+            whole = FrameSpec(link=spec) if isinstance(spec, str) else spec
+            ends.append(whole.resolve(model, file=file, element=element))
+        if ends[0].joint == ends[1].joint:
+            raise SidecarError(
+                "both ends sit on one body",
+                file=file,
+                element=element,
+                value=f"{ends[0].label}, {ends[1].label}",
+                cure="name frames on two bodies that move against each other",
+            )
+        return FrameSpring(self.name, ends[0], ends[1], self.stiffness, self.preload, self.length_max)
+
+
+SpringSpec = JointSpringSpec | FrameSpringSpec
+
+
+@dataclass(frozen=True)
+class JointSpring:
+    """A spring on a joint: torque = preload - stiffness (q - rest).
+
+    Attributes:
+        name: as in the sidecar.
+        joint: the joint's name.
+        column: its entry in the configuration.
+        stiffness: N m/rad (revolute) or N/m (prismatic).
+        rest: rad or m.
+        preload: N m or N.
+    """
+
+    name: str
+    joint: str
+    column: int
+    stiffness: float
+    rest: float
+    preload: float
+
+    def energy(self, at: Kinematics) -> float:
+        """k (q - rest)^2 / 2 - preload (q - rest) [J]."""
+        away = float(at.q[self.column]) - self.rest
+        return 0.5 * self.stiffness * away * away - self.preload * away
+
+    def effort(self, at: Kinematics) -> float:
+        """The joint's torque [N m] or force [N], along +q."""
+        return self.preload - self.stiffness * (float(at.q[self.column]) - self.rest)
+
+    def force(self, at: Kinematics) -> Array:
+        """(nv,) generalised force."""
+        result = np.zeros(at.model.nv)
+        result[self.column] = self.effort(at)
+        return result
+
+
+@dataclass(frozen=True)
+class FrameSpring:
+    """A spring that pushes two points apart up to a stop: force = preload + k (length_max - length).
+
+    At `length_max` it stands on its stop, which carries the rest: the one-sided row length_max - length >= 0.
+
+    Attributes:
+        name: as in the sidecar.
+        first, second: where its ends sit.
+        stiffness: N/m.
+        preload: N, the force at `length_max`.
+        length_max: m.
+    """
+
+    name: str
+    first: BodyFrame
+    second: BodyFrame
+    stiffness: float
+    preload: float
+    length_max: float
+
+    def length(self, at: Kinematics) -> float:
+        """Distance between the ends [m].
+
+        Raises:
+            MechanismError: the ends coincide, so that the spring has no direction.
+        """
+        length = math.dist(self.first.origin(at), self.second.origin(at))
+        if length < 1e-9:
+            raise MechanismError(
+                "the spring's ends coincide, so it pushes in no direction",
+                element=f"springs.{self.name}",
+                value=length,
+                cure="move one of its frames",
+            )
+        return length
+
+    def length_gradient(self, at: Kinematics) -> Array:
+        """(nv,) d length / dq [m/rad or m/m]."""
+        along = (self.second.origin(at) - self.first.origin(at)) / self.length(at)
+        gradient: Array = along @ (self.second.origin_jacobian(at) - self.first.origin_jacobian(at))
+        return gradient
+
+    def effort(self, at: Kinematics) -> float:
+        """The spring's push [N]."""
+        return self.preload + self.stiffness * (self.length_max - self.length(at))
+
+    def energy(self, at: Kinematics) -> float:
+        """preload d + k d^2 / 2 with d = length_max - length [J]."""
+        short = self.length_max - self.length(at)
+        return self.preload * short + 0.5 * self.stiffness * short * short
+
+    def force(self, at: Kinematics) -> Array:
+        """(nv,) generalised force."""
+        return self.effort(at) * self.length_gradient(at)
+
+    def slack(self, at: Kinematics) -> float:
+        """length_max - length [m]."""
+        return self.length_max - self.length(at)
+
+    def slack_gradient(self, at: Kinematics) -> Array:
+        """(nv,) minus the gradient of the length."""
+        return -self.length_gradient(at)
+
+
+Spring = JointSpring | FrameSpring
