@@ -100,7 +100,7 @@ class SolverError(RoverPinError):
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
-    """A cure that names the nearest known names: `did you mean 'a' or 'b'?`, else the list of what there is."""
+    """Name the nearest known names, `did you mean 'a' or 'b'?`, else list what there is."""
     names = sorted(set(known))
     close = difflib.get_close_matches(name, names, n=3, cutoff=0.5)
     if close:

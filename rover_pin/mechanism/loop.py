@@ -21,7 +21,7 @@ _SIZES: dict[str, int] = {"ball": 3, "hinge": 5, "planar": 2, "weld": 6, "distan
 
 
 class LoopSpec(BaseModel):
-    """`{name: left_link, frames: [bar_l, rocker_l], type: ball}`, with `axis`, `length`, `at`, `tolerance`."""
+    """`{name: left_link, frames: [bar_l, rocker_l], type: ball}`; also `axis`, `length`, `at`, `tolerance`."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 

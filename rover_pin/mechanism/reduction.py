@@ -66,7 +66,7 @@ def reduce_coordinates(
         offset[column] = value
     rows = np.array([coupling.row[open_columns] for coupling in couplings]).reshape(-1, len(open_columns))
     right = np.array([coupling.offset - coupling.row @ offset for coupling in couplings])
-    owners = [coupling for coupling in couplings]
+    owners = list(couplings)
     pivots: list[tuple[int, int]] = []
     used = np.zeros(len(owners), dtype=bool)
     for _ in owners:
@@ -74,7 +74,7 @@ def reduce_coordinates(
         size[used] = 0.0
         if size.size == 0 or size.max() < 1e-12:
             break
-        row, column = np.unravel_index(int(np.argmax(size)), size.shape)
+        row, column = divmod(int(np.argmax(size)), size.shape[1])
         scale = rows[row, column]
         rows[row] /= scale
         right[row] /= scale
@@ -84,7 +84,7 @@ def reduce_coordinates(
                 rows[other] -= factor * rows[row]
                 right[other] -= factor * right[row]
         used[row] = True
-        pivots.append((int(row), int(column)))
+        pivots.append((row, column))
     for row, coupling in enumerate(owners):
         if not used[row] and abs(right[row]) > tolerance:
             involved = ", ".join(
