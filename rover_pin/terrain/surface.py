@@ -35,11 +35,11 @@ def surface(kind: int, table: Array, params: Array, x: float, y: float) -> Six:
     Finite for every finite point; NaN for a point that is not a number.
     """
     offset, scale = params[0], params[1]
+    if math.isnan(x) or math.isnan(y):
+        return math.nan, math.nan, math.nan, math.nan, math.nan, math.nan
     if kind == PLANE:
         h, hx, hy = params[2] + params[3] * x + params[4] * y, params[3], params[4]
         return offset + scale * h, scale * hx, scale * hy, 0.0, 0.0, 0.0
-    if math.isnan(x) or math.isnan(y):
-        return math.nan, math.nan, math.nan, math.nan, math.nan, math.nan
     if kind == SMOOTH:
         h, hx, hy, hxx, hxy, hyy = smooth(table, params, x, y)
     elif kind == LINEAR:
