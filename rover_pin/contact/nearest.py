@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 
-from rover_pin.numerics import formula
+from rover_pin.numerics import Array, formula
 from rover_pin.terrain.surface import surface
+
+Seven = tuple[float, float, float, float, float, float, float]
 
 
 @formula
-def upright(x, y, h, hx, hy, px, py, pz):  # type: ignore[no-untyped-def]
+def upright(x: float, y: float, h: float, hx: float, hy: float, px: float, py: float, pz: float) -> Seven:
     """Surface normal n at (x, y) and the offset (P - W).n of P along it.
 
     Returns:
@@ -21,7 +23,17 @@ def upright(x, y, h, hx, hy, px, py, pz):  # type: ignore[no-untyped-def]
 
 
 @formula
-def nearest(kind, table, params, spacing, px, py, pz, x, y):  # type: ignore[no-untyped-def]
+def nearest(
+    kind: int,
+    table: Array,
+    params: Array,
+    spacing: float,
+    px: float,
+    py: float,
+    pz: float,
+    x: float,
+    y: float,
+) -> tuple[Seven, bool]:
     """Local nearest point W of the surface to P, from the start (x, y), by damped Newton.
 
     Minimises f = |P - W(x, y)|^2 / 2; its gradient is -((Px-x) + (Pz-h) hx, (Py-y) + (Pz-h) hy), its Hessian

@@ -9,9 +9,11 @@ from rover_pin.numerics import formula
 RING = 0
 SEGMENT = 1
 
+Frame = tuple[float, float, float, float, float, float, float, float, float]
+
 
 @formula
-def basis(form, ring, ax, ay, az):  # type: ignore[no-untyped-def]
+def basis(form: int, ring: float, ax: float, ay: float, az: float) -> Frame:
     """Orthonormal axis `a`, down `d` and side `e` of a shape.
 
     `d` is -z projected across the axis, `e = a x d` is horizontal. Where the axis is vertical every
@@ -39,7 +41,7 @@ def basis(form, ring, ax, ay, az):  # type: ignore[no-untyped-def]
 
 
 @formula
-def place(form, frame, cx, cy, cz, ring, p):  # type: ignore[no-untyped-def]
+def place(form: int, frame: Frame, cx: float, cy: float, cz: float, ring: float, p: float) -> Frame:
     """Ball centre at parameter `p`, and its first and second derivative by `p`.
 
     Ring: P = C + ring (d cos p + e sin p), p in rad. Segment: P = C + p a, p in m within +- ring.

@@ -10,7 +10,10 @@ from rover_pin.terrain.surface import surface
 
 
 @formula
-def plane_contacts(kind, table, params, form, center, axis, ring, tread, window, out):  # type: ignore[no-untyped-def]
+def plane_contacts(
+    kind: int, table: Array, params: Array, form: int, center: Array, axis: Array, ring: float, tread: float,
+    window: float, out: Array,
+) -> int:  # fmt: skip
     """Rows of `out` for a plane with unit normal n; see `find_contacts`.
 
     Ring: the nearest point lies along -n projected across the axis, at (C - W0).n - ring |n_perp|. Where the
@@ -36,7 +39,7 @@ def plane_contacts(kind, table, params, form, center, axis, ring, tread, window,
         first = math.atan2(-side, -down) if ring > 0.0 else 0.0
         tilt = ring * math.sqrt(down * down + side * side)
         places, turn = (4, 0.5 * math.pi) if ring > 0.0 and 2.0 * tilt <= window else (1, 0.0)
-    count = min(places, out.shape[0])
+    count: int = min(places, out.shape[0])
     for k in range(count):
         px, py, pz, _, _, _, _, _, _ = place(form, frame, cx, cy, cz, ring, first + k * turn)
         far = (px - cx) * nx + (py - cy) * ny + (pz - h) * nz

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import math
 
-from rover_pin.contact.nearest import nearest, upright
-from rover_pin.contact.place import place
-from rover_pin.numerics import formula
+from rover_pin.contact.crease import touch
+from rover_pin.contact.nearest import Seven, upright
+from rover_pin.contact.place import Frame, place
+from rover_pin.numerics import Array, formula
 from rover_pin.terrain.surface import surface
 
 
 @formula
-def newton(kind, table, params, form, frame, cx, cy, cz, ring, width, p, x, y):  # type: ignore[no-untyped-def]
+def newton(
+    kind: int, table: Array, params: Array, form: int, frame: Frame, cx: float, cy: float, cz: float,
+    ring: float, width: float, p: float, x: float, y: float,
+) -> tuple[float, Seven, bool]:  # fmt: skip
     """Stationary distance between the shape's line and the surface, by Newton on (x, y, p).
 
     Equations, with P(p), T = dP/dp and N = (-hx, -hy, 1):
@@ -85,19 +89,25 @@ def newton(kind, table, params, form, frame, cx, cy, cz, ring, width, p, x, y): 
 
 
 @formula
-def slope_at(kind, table, params, spacing, form, frame, cx, cy, cz, ring, p, x, y):  # type: ignore[no-untyped-def]
+def slope_at(
+    kind: int, table: Array, params: Array, spacing: float, form: int, frame: Frame, cx: float, cy: float,
+    cz: float, ring: float, p: float, x: float, y: float,
+) -> tuple[float, Seven]:  # fmt: skip
     """Signed distance at `p`, its derivative by `p` (T.n), and W and n.
 
     Returns:
         Derivative, (W (3), n (3), signed distance).
     """
     px, py, pz, tx, ty, tz, _, _, _ = place(form, frame, cx, cy, cz, ring, p)
-    found, _ = nearest(kind, table, params, spacing, px, py, pz, x, y)
+    found = touch(kind, table, params, spacing, px, py, pz, x, y)
     return tx * found[3] + ty * found[4] + tz * found[5], found
 
 
 @formula
-def nested(kind, table, params, spacing, form, frame, cx, cy, cz, ring, width, p, x, y):  # type: ignore[no-untyped-def]
+def nested(
+    kind: int, table: Array, params: Array, spacing: float, form: int, frame: Frame, cx: float, cy: float,
+    cz: float, ring: float, width: float, p: float, x: float, y: float,
+) -> tuple[float, Seven]:  # fmt: skip
     """The same minimum where Newton fails: bracketed root of the derivative along the line.
 
     At each p the nearest surface point is found on its own, and the derivative of the distance is T.n. The

@@ -5,45 +5,58 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
-from rover_pin.contact.place import basis
+from rover_pin.contact.nearest import Seven
+from rover_pin.contact.place import Frame, basis, place
 from rover_pin.contact.plane import plane_contacts, put
 from rover_pin.contact.refine import nested, newton
-from rover_pin.contact.skin import clearances, hollow, lattice, skin_point
-from rover_pin.numerics import formula
+from rover_pin.contact.skin import clearances, hollow, lattice, skin_point, slack
+from rover_pin.numerics import Array, formula
 from rover_pin.terrain.surface import surface
 
 MOST_SEEDS = 12
 
+Integers = NDArray[np.int64]
+
 
 @formula
-def search_skin(kind, table, params, spacing, form, frame, cx, cy, cz, ring, tread, ball, window, out, count):  # type: ignore[no-untyped-def]
+def seek(near: Array, limit: float, closed: bool, seeds: Array) -> int:
+    """The hollows of `near` up to `limit`, lowest first: rows (estimate, i, j) of `seeds`; how many."""
+    n = 0
+    most = seeds.shape[0]
+    for i in range(near.shape[0]):
+        for j in range(near.shape[1]):
+            if not (near[i, j] <= limit and hollow(near, i, j, closed)):
+                continue
+            if n == most and near[i, j] >= seeds[n - 1, 0]:
+                continue
+            n = min(n + 1, most)
+            k = n - 1
+            while k > 0 and seeds[k - 1, 0] > near[i, j]:
+                seeds[k] = seeds[k - 1]
+                k -= 1
+            seeds[k, 0], seeds[k, 1], seeds[k, 2] = near[i, j], i, j
+    return n
+
+
+@formula
+def search_skin(
+    kind: int, table: Array, params: Array, spacing: float, form: int, frame: Frame, cx: float, cy: float,
+    cz: float, ring: float, tread: float, ball: float, window: float, out: Array, count: int,
+) -> int:  # fmt: skip
     """Look over the tube of radius `ball` about the shape's line, refine its hollows, add them to `out`.
 
-    A hollow is refined where its estimate is within the window of the least one, plus what an estimate can
-    be wrong by. Returns the number of rows.
+    Returns:
+        Number of rows.
     """
     grid = lattice(kind, spacing, form, frame, ring, ball)
-    near = clearances(kind, table, params, form, frame, cx, cy, cz, ring, ball, grid)
-    rows, columns = grid[0], grid[1]
-    closed, arc = grid[6], (grid[4] if form == 1 else grid[4] * (ring + ball))
-    least = near.min()
+    near = np.empty((grid[0], grid[1]))
+    least = clearances(kind, table, params, form, frame, cx, cy, cz, ring, ball, grid, window, near)
     if not least < math.inf:
         return count
-    limit = least + window + 0.3 * arc + 0.15 * ball + 0.3 * abs(least)
     seeds = np.empty((MOST_SEEDS, 3))
-    n = 0
-    for i in range(rows):
-        for j in range(columns):
-            if near[i, j] <= limit and hollow(near, i, j, closed):
-                k = n if n < MOST_SEEDS else MOST_SEEDS - 1
-                if n >= MOST_SEEDS and near[i, j] >= seeds[k, 0]:
-                    continue
-                while k > 0 and seeds[k - 1, 0] > near[i, j]:
-                    seeds[k] = seeds[k - 1]
-                    k -= 1
-                seeds[k, 0], seeds[k, 1], seeds[k, 2] = near[i, j], i, j
-                n = min(n + 1, MOST_SEEDS)
+    n = seek(near, least + slack(window, grid[7], ball, least), grid[6], seeds)
     for k in range(n):
         i, j = int(seeds[k, 1]), int(seeds[k, 2])
         p, x, y, _, _ = skin_point(form, frame, cx, cy, cz, ring, ball, grid, i, j)
@@ -53,16 +66,27 @@ def search_skin(kind, table, params, spacing, form, frame, cx, cy, cz, ring, tre
 
 
 @formula
-def refine(kind, table, params, spacing, form, frame, cx, cy, cz, ring, width, p, x, y):  # type: ignore[no-untyped-def]
-    """The minimum near a seed: Newton, else the nested search. W (3), n (3), signed distance."""
+def refine(
+    kind: int, table: Array, params: Array, spacing: float, form: int, frame: Frame, cx: float, cy: float,
+    cz: float, ring: float, width: float, p: float, x: float, y: float,
+) -> Seven:  # fmt: skip
+    """The minimum near a seed: Newton's, unless that is no minimum or farther than the seed, else `nested`'s.
+
+    Returns:
+        W (3), n (3), signed distance.
+    """
     _, found, good = newton(kind, table, params, form, frame, cx, cy, cz, ring, width, p, x, y)
-    if not good:
-        _, found = nested(kind, table, params, spacing, form, frame, cx, cy, cz, ring, width, p, x, y)
+    px, py, pz, _, _, _, _, _, _ = place(form, frame, cx, cy, cz, ring, p)
+    h = surface(kind, table, params, x, y)[0]
+    start = math.sqrt((px - x) ** 2 + (py - y) ** 2 + (pz - h) ** 2)
+    if good and (found[6] <= start or pz < h):
+        return found
+    _, found = nested(kind, table, params, spacing, form, frame, cx, cy, cz, ring, width, p, x, y)
     return found
 
 
 @formula
-def keep(out, count, found, tread, apart, window):  # type: ignore[no-untyped-def]
+def keep(out: Array, count: int, found: Seven, tread: float, apart: float, window: float) -> int:
     """Insert a minimum into the sorted rows of `out`; the same place found twice counts once.
 
     Returns:
@@ -98,7 +122,10 @@ def keep(out, count, found, tread, apart, window):  # type: ignore[no-untyped-de
 
 
 @formula
-def find_contacts(kind, table, params, spacing, form, center, axis, ring, tread, window, out):  # type: ignore[no-untyped-def]
+def find_contacts(
+    kind: int, table: Array, params: Array, spacing: float, form: int, center: Array, axis: Array,
+    ring: float, tread: float, window: float, out: Array,
+) -> int:  # fmt: skip
     """Contacts of one shape with the terrain, sorted by gap.
 
     Args:
@@ -139,7 +166,10 @@ def find_contacts(kind, table, params, spacing, form, center, axis, ring, tread,
 
 
 @formula
-def find_all(kind, table, params, spacing, forms, centers, axes, rings, treads, window, out, counts):  # type: ignore[no-untyped-def]
+def find_all(
+    kind: int, table: Array, params: Array, spacing: float, forms: Integers, centers: Array, axes: Array,
+    rings: Array, treads: Array, window: float, out: Array, counts: Integers,
+) -> None:  # fmt: skip
     """`find_contacts` for every shape.
 
     Args:

@@ -6,17 +6,24 @@ import math
 
 import numpy as np
 
-from rover_pin.contact.place import place
-from rover_pin.numerics import formula
+from rover_pin.contact.place import Frame
+from rover_pin.numerics import Array, formula
 from rover_pin.terrain.surface import surface
 
 MOST_ROWS = 128
 MOST_COLUMNS = 9
+STRIDE = 3
+
+Grid = tuple[int, int, int, float, float, float, bool, float]
 
 
 @formula
-def lattice(kind, spacing, form, frame, ring, ball):  # type: ignore[no-untyped-def]
+def lattice(kind: int, spacing: float, form: int, frame: Frame, ring: float, ball: float) -> Grid:
     """How finely to look: rows along the line, columns around the ball.
+
+    Neighbours are at most half of the terrain's `spacing` apart (within the bounds on rows and columns), rows
+    at most an eighth of the shape. A ring whose axis is level needs its lower half only: of two points one
+    above the other the lower is the nearer to a height field.
 
     Args:
         kind: terrain kind.
@@ -28,26 +35,41 @@ def lattice(kind, spacing, form, frame, ring, ball):  # type: ignore[no-untyped-
 
     Returns:
         rows, columns, rows of one cap (segments), first p, step of p, step of the column angle, True for a
-        closed ring.
+        closed ring, arc between rows [m].
     """
-    step = min(spacing if kind == 3 else 0.5 * spacing, (ring + ball) / 8.0)
-    step = max(step, 1e-6)
+    fine = max(spacing if kind == 3 else 0.5 * spacing, 1e-6)
+    step = max(min(fine, (ring + ball) / 8.0), 1e-6)
+    columns = 1
+    if ball > 0.0:
+        wanted = math.ceil(min(math.pi * ball / fine, 100.0))
+        columns = max(min(wanted + 1 - wanted % 2, MOST_COLUMNS), 3)
+    turn = math.pi / columns
     if form == 1:
         cap = 3 if ball > 0.0 else 0
-        n = max(min(int(math.ceil(2.0 * ring / step)), MOST_ROWS - 8), 1)
-        m = max(min(int(math.ceil(math.pi * ball / step)), MOST_COLUMNS - 1), 3) if ball > 0.0 else 0
-        return n + 1 + 2 * cap, m + 1, cap, -ring, 2.0 * ring / n, math.pi / max(m, 1), False
+        n = max(min(math.ceil(min(2.0 * ring / step, 1e6)), MOST_ROWS - 8), 1)
+        return n + 1 + 2 * cap, columns, cap, -ring, 2.0 * ring / n, turn, False, 2.0 * ring / n
+    if ring + ball == 0.0:
+        return 1, 1, 0, 0.0, 0.0, turn, False, 0.0
     closed = abs(frame[2]) > 0.02
     span = 2.0 * math.pi if closed else 1.04 * math.pi
-    n = max(min(int(math.ceil(span * (ring + ball) / step)), MOST_ROWS - 2), 8)
-    if ring + ball == 0.0:
-        n = 0
-    m = max(min(int(math.ceil(math.pi * ball / step)), MOST_COLUMNS - 1), 2) if ball > 0.0 else 0
-    return (n if closed else n + 1), m + 1, 0, -0.5 * span, span / max(n, 1), math.pi / max(m, 1), closed
+    n = max(min(math.ceil(span * (ring + ball) / step), MOST_ROWS), 8)
+    arc = span * (ring + ball) / n
+    return (n if closed else n + 1), columns, 0, -0.5 * span, span / n, turn, closed, arc
 
 
 @formula
-def skin_point(form, frame, cx, cy, cz, ring, ball, grid, i, j):  # type: ignore[no-untyped-def]
+def skin_point(
+    form: int,
+    frame: Frame,
+    cx: float,
+    cy: float,
+    cz: float,
+    ring: float,
+    ball: float,
+    grid: Grid,
+    i: int,
+    j: int,
+) -> tuple[float, float, float, float, float]:
     """Skin point of row i, column j: parameter p, the point, and its outward direction's z.
 
     Ring: u = r(p) cos b + a sin b. Segment: u = d cos b + e sin b, leaning out along the axis in the caps.
@@ -56,22 +78,21 @@ def skin_point(form, frame, cx, cy, cz, ring, ball, grid, i, j):  # type: ignore
         p, point (3), z of the outward direction (-1 where the tube has no thickness).
     """
     ax, ay, az, dx, dy, dz, ex, ey, ez = frame
-    rows, columns, cap, first, step, turn, _ = grid
+    rows, columns, cap, first, step, turn = grid[0], grid[1], grid[2], grid[3], grid[4], grid[5]
     b = (j - 0.5 * (columns - 1)) * turn
     cb, sb = math.cos(b), math.sin(b)
     if form == 1:
-        k = min(max(i - cap, 0), rows - 1 - 2 * cap)
-        p = min(first + k * step, ring)
+        p = min(first + min(max(i - cap, 0), rows - 1 - 2 * cap) * step, ring)
         lean = 0.0
         if i < cap:
-            lean = -(cap - i) * math.pi / 7.0
+            lean = (i - cap) * math.pi / 7.0
         elif i > rows - 1 - cap:
             lean = (i - (rows - 1 - cap)) * math.pi / 7.0
         cl, sl = math.cos(lean), math.sin(lean)
         ux = cl * (cb * dx + sb * ex) + sl * ax
         uy = cl * (cb * dy + sb * ey) + sl * ay
         uz = cl * (cb * dz + sb * ez) + sl * az
-        px, py, pz, _, _, _, _, _, _ = place(form, frame, cx, cy, cz, ring, p)
+        px, py, pz = cx + p * ax, cy + p * ay, cz + p * az
     else:
         p = first + i * step
         cp, sp = math.cos(p), math.sin(p)
@@ -84,29 +105,68 @@ def skin_point(form, frame, cx, cy, cz, ring, ball, grid, i, j):  # type: ignore
 
 
 @formula
-def clearances(kind, table, params, form, frame, cx, cy, cz, ring, ball, grid):  # type: ignore[no-untyped-def]
-    """Estimated distance to the surface at every skin point: vertical clearance / sqrt(1 + |grad h|^2).
-
-    A point where the skin faces up cannot be the lowest of the shape and gets infinity.
+def look(
+    kind: int, table: Array, params: Array, form: int, frame: Frame, cx: float, cy: float, cz: float,
+    ring: float, ball: float, grid: Grid, i: int, near: Array,
+) -> float:  # fmt: skip
+    """Fill row i of `near`: vertical clearance / sqrt(1 + |grad h|^2); infinity where the skin faces up.
 
     Returns:
-        (rows, columns) m.
+        The least of the row.
     """
-    rows, columns = grid[0], grid[1]
-    near = np.empty((rows, columns))
-    for i in range(rows):
-        for j in range(columns):
-            _, x, y, z, uz = skin_point(form, frame, cx, cy, cz, ring, ball, grid, i, j)
-            if uz > -0.02:
-                near[i, j] = math.inf
-                continue
+    least = math.inf
+    for j in range(grid[1]):
+        _, x, y, z, uz = skin_point(form, frame, cx, cy, cz, ring, ball, grid, i, j)
+        if uz < -0.02:
             h, hx, hy, _, _, _ = surface(kind, table, params, x, y)
             near[i, j] = (z - h) / math.sqrt(1.0 + hx * hx + hy * hy)
-    return near
+            least = min(least, near[i, j])
+    return least
 
 
 @formula
-def hollow(near, i, j, closed):  # type: ignore[no-untyped-def]
+def slack(window: float, arc: float, ball: float, least: float) -> float:
+    """How far above the least estimate a hollow is still wanted: the window and what estimates can err by."""
+    return window + 0.3 * arc + 0.15 * ball + 0.3 * abs(least)
+
+
+@formula
+def clearances(
+    kind: int, table: Array, params: Array, form: int, frame: Frame, cx: float, cy: float, cz: float,
+    ring: float, ball: float, grid: Grid, window: float, near: Array,
+) -> float:  # fmt: skip
+    """Estimated distance to the surface at the skin points that matter, infinity elsewhere.
+
+    Every third row is looked at; the rows between only where they could come within the slack, the estimate
+    falling by no more than twice the arc.
+
+    Returns:
+        The least, m; `near` (rows, columns) is filled.
+    """
+    rows, closed, arc = grid[0], grid[6], grid[7]
+    near[:, :] = math.inf
+    row = np.full(rows, math.inf)
+    least = math.inf
+    for i in range(0, rows, STRIDE):
+        row[i] = look(kind, table, params, form, frame, cx, cy, cz, ring, ball, grid, i, near)
+        least = min(least, row[i])
+    for i in range(rows):
+        if i % STRIDE == 0:
+            continue
+        before = i - i % STRIDE
+        after = before + STRIDE
+        if after >= rows and closed:
+            after = 0
+        bound = row[before] - 2.0 * arc * (i - before)
+        if after < rows:
+            bound = min(bound, row[after] - 2.0 * arc * (before + STRIDE - i))
+        if bound <= least + slack(window, arc, ball, least) or (form == 1 and i >= rows - 1 - grid[2]):
+            least = min(least, look(kind, table, params, form, frame, cx, cy, cz, ring, ball, grid, i, near))
+    return least
+
+
+@formula
+def hollow(near: Array, i: int, j: int, closed: bool) -> bool:
     """Whether entry (i, j) is no larger than its eight neighbours (ties go to the first)."""
     rows, columns = near.shape
     here = near[i, j]
