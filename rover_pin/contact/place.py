@@ -69,3 +69,23 @@ def place(form: int, frame: Frame, cx: float, cy: float, cz: float, ring: float,
         u * ex - w * dx, u * ey - w * dy, u * ez - w * dz,
         -rx, -ry, -rz,
     )  # fmt: skip
+
+
+@formula
+def param_near(
+    form: int, frame: Frame, cx: float, cy: float, cz: float, ring: float, x: float, y: float, z: float
+) -> tuple[float, float]:
+    """Parameter of the line's point nearest to (x, y, z) [m], and the distance [m]; closed form.
+
+    With w the point from the centre: a ring's is at the angle of w across the axis, at
+    hypot(w.a, |w x a| - ring); a segment's is w.a within its ends.
+    """
+    ax, ay, az, dx, dy, dz, ex, ey, ez = frame
+    wx, wy, wz = x - cx, y - cy, z - cz
+    along = wx * ax + wy * ay + wz * az
+    down, side = wx * dx + wy * dy + wz * dz, wx * ex + wy * ey + wz * ez
+    across = math.sqrt(down * down + side * side)
+    if form == 1:
+        p = min(max(along, -ring), ring)
+        return p, math.sqrt(across * across + (along - p) ** 2)
+    return math.atan2(side, down), math.sqrt(along * along + (across - ring) ** 2)

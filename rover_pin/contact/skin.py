@@ -11,7 +11,7 @@ from rover_pin.numerics import Array, formula
 from rover_pin.terrain.surface import surface
 
 MOST_ROWS = 128
-MOST_COLUMNS = 9
+MOST_COLUMNS = 15
 STRIDE = 3
 
 Grid = tuple[int, int, int, float, float, float, bool, float]
