@@ -1,0 +1,31 @@
+"""Friction margin: how much of the friction the stance can do without."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rover_pin.stability.margin import Margin
+from rover_pin.stability.measure import Measure, Standing
+from rover_pin.statics.distribute import smallest_friction
+from rover_pin.statics.forces import ForceStatus
+
+
+def evaluate(standing: Standing) -> Margin:
+    """The most friction that every contact could lose at once with the rover still in equilibrium [-].
+
+    With one friction mu for all it is mu - mu_least; where the shapes declare different ones it is the
+    largest d with |tangential_i| <= (mu_i - d) normal_i. Negative where friction does not hold the rover.
+    Edges: what each contact's friction exceeds its |tangential| / normal by, in the forces that attain it.
+    Details: `least` (the largest ratio in those forces; with one friction for all, mu_least).
+    """
+    forces = smallest_friction(standing.problem)
+    if not np.isfinite(forces.friction):
+        return MEASURE.closed(forces.reason)
+    edges = dict(zip(forces.contacts, (forces.given - forces.ratio).tolist(), strict=True))
+    if forces.status is not ForceStatus.FEASIBLE and min(edges.values(), default=0.0) >= 0.0:
+        return MEASURE.closed(forces.reason)
+    least = forces.friction
+    return MEASURE.margin(edges, note=f"needs friction {least:.6g}", least=least)
+
+
+MEASURE = Measure("friction", "-", "high", 3.5, evaluate)

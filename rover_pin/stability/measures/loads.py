@@ -1,0 +1,32 @@
+"""Wheel loads: how evenly they are shared."""
+
+from __future__ import annotations
+
+import math
+
+from rover_pin.stability.margin import Margin
+from rover_pin.stability.measure import Measure, Standing
+
+
+def evaluate(standing: Standing) -> Margin:
+    """The least wheel's load over the mean load [-]: 1 where all are equal, 0 where a wheel carries nothing.
+
+    The edges are each wheel's share of the mean. Details: `range_n` (largest less least, N), `max_over_mean`,
+    `std_over_mean` (of the whole set), `mean_n`. Wheels that do not touch count as zero.
+    """
+    loads = standing.stance.loads
+    mean = math.fsum(loads.values()) / len(loads) if loads else 0.0
+    if mean <= 0.0:
+        return MEASURE.closed("no wheel carries anything")
+    least, largest = min(loads.values()), max(loads.values())
+    spread = math.sqrt(math.fsum((load - mean) ** 2 for load in loads.values()) / len(loads))
+    return MEASURE.margin(
+        {name: load / mean for name, load in loads.items()},
+        range_n=largest - least,
+        max_over_mean=largest / mean,
+        std_over_mean=spread / mean,
+        mean_n=mean,
+    )
+
+
+MEASURE = Measure("loads", "-", "high", 0.01, evaluate)

@@ -1,0 +1,26 @@
+"""Holding torque: the least that the strongest motor must give."""
+
+from __future__ import annotations
+
+from rover_pin.stability.margin import Margin
+from rover_pin.stability.measure import Measure, Standing
+from rover_pin.statics.distribute import smallest_torque
+
+
+def evaluate(standing: Standing) -> Margin:
+    """The least possible largest torque of a driven wheel at rest, within friction [N m].
+
+    Edges: each driven wheel's |torque| in the forces that attain it. Inf where friction cannot hold the
+    rover. Details: `friction` (largest ratio those forces use).
+    """
+    problem = standing.problem
+    driven = [w for w in dict.fromkeys(c.wheel for c in problem.contacts) if w in problem.driven]
+    if not driven:
+        return MEASURE.closed("no driven wheel touches the ground")
+    forces = smallest_torque(problem)
+    if not forces.feasible:
+        return MEASURE.closed(forces.reason)
+    return MEASURE.margin({w: abs(forces.torques[w]) for w in driven}, friction=forces.friction)
+
+
+MEASURE = Measure("torque", "N m", "low", 1.0, evaluate)
