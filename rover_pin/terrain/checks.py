@@ -92,21 +92,18 @@ def heights(values: Any, interpolation: str, file: object = None) -> Array:
         raise TerrainError("the map's rows differ in length", file=file) from None
     if isinstance(array, np.ma.MaskedArray):
         hidden = np.ma.getmaskarray(array)
-        require_no_gaps(hidden, "masked cells", file)
+        require_no_gaps(hidden, "no data (masked)", file)
         array = np.asarray(array)
     if array.dtype.kind not in "fiu":
-        raise TerrainError("the map does not hold real numbers", file=file, value=str(array.dtype))
+        raise TerrainError("the map does not hold real numbers", file=file, value=array.dtype)
     if array.ndim != 2:
         cure = "give one height for each place; export a single band" if array.ndim > 2 else None
-        raise TerrainError(
-            "the map is not two-dimensional", file=file, value=f"shape {array.shape}", cure=cure
-        )
+        raise TerrainError("the map is not two-dimensional", file=file, value=array.shape, cure=cure)
     least = INTERPOLATIONS[interpolation_name(interpolation)]
     if min(array.shape) < least:
         raise TerrainError(
-            "the map is too small",
+            f"the map of {array.shape[0]} x {array.shape[1]} nodes is too small",
             file=file,
-            value=f"{array.shape[0]} x {array.shape[1]} nodes",
             cure=f"interpolation {interpolation!r} needs at least {least} x {least}",
         )
     result: Array = np.ascontiguousarray(array, dtype=np.float64)
@@ -125,9 +122,8 @@ def require_no_gaps(gaps: np.ndarray[Any, np.dtype[np.bool_]], name: str, file: 
     if count:
         row, column = (int(k) for k in np.argwhere(gaps)[0])
         raise TerrainError(
-            f"the map holds {name}",
+            f"the map holds {name} in {count} of {gaps.size} cells, the first at row {row}, column {column}",
             file=file,
-            value=f"{count} of {gaps.size} cells, the first at row {row}, column {column}",
             cure="fill them or cut them off",
         )
 
@@ -144,7 +140,7 @@ def extent_of(value: Sequence[float] | None) -> Extent:
     try:
         xmin, xmax, ymin, ymax = (float(v) for v in value)
     except (TypeError, ValueError):
-        raise TerrainError("the extent is not four numbers", value=str(value), cure=cure) from None
+        raise TerrainError("the extent is not four numbers", value=value, cure=cure) from None
     if not (xmin < xmax and ymin < ymax):
-        raise TerrainError("the extent is empty", value=str(tuple(value)), cure=cure)
+        raise TerrainError("the extent is empty", value=tuple(value), cure=cure)
     return xmin, xmax, ymin, ymax

@@ -70,10 +70,23 @@ class HeightFunction:
             ) from error
         return (HeightFunction, (*self._given, self.extent, self.spacing))
 
+    def __deepcopy__(self, memo: object) -> HeightFunction:
+        """Itself: it does not change."""
+        return self
+
     def heights(self, x: Array, y: Array) -> Array:
-        """Heights (n,) [m] at points x, y (n,) [m], clamped to the extent."""
+        """Heights (n,) [m] at points x, y (n,) [m], clamped to the extent.
+
+        Raises:
+            TerrainError: a height is not finite.
+        """
         xmin, xmax, ymin, ymax = self.extent
-        return self._height(np.clip(x, xmin, xmax), np.clip(y, ymin, ymax))
+        heights = self._height(np.clip(x, xmin, xmax), np.clip(y, ymin, ymax))
+        holes = ~np.isfinite(heights) & np.isfinite(x + y)
+        if holes.any():
+            i = int(np.argmax(holes))
+            raise _hole(heights[i], x[i], y[i])
+        return heights
 
     def derivatives(self, x: float, y: float) -> Six:
         """(h, hx, hy, hxx, hxy, hyy) at one point [m, -, -, 1/m, 1/m, 1/m]."""
@@ -130,12 +143,16 @@ def evaluate(handle: int, x: float, y: float) -> Six:
         )
     values = function.derivatives(x, y)
     if not np.isfinite(sum(values)) and np.isfinite(x + y):
-        raise TerrainError(
-            "the terrain's function gives a height or slope that is not finite",
-            value=f"{values[0]} at x = {x}, y = {y}",
-            cure="state the `extent` where it is defined",
-        )
+        raise _hole(values[0], x, y)
     return values
+
+
+def _hole(height: float, x: float, y: float) -> TerrainError:
+    return TerrainError(
+        "the terrain's function gives a height or slope that is not finite",
+        value=f"{height} at x = {x}, y = {y}",
+        cure="state the `extent` where it is defined",
+    )
 
 
 def _inside(value: float, low: float, high: float, margin: float) -> float:

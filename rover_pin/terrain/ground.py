@@ -66,7 +66,8 @@ class Ground:
 
     def __repr__(self) -> str:
         where = ", ".join(f"{end:g}" for end in self.extent)
-        return f"{type(self).__name__}({self.label!r}, {self.interpolation}, [{where}], spacing {self.spacing:g})"
+        name = type(self).__name__
+        return f"{name}({self.label!r}, {self.interpolation}, [{where}], spacing {self.spacing:g})"
 
     def height(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Heights [m] at points x, y [m], broadcast together."""
@@ -146,9 +147,8 @@ class Ground:
         xmin, xmax, ymin, ymax = self.extent
         if min(xmax - xmin, ymax - ymin) < span:
             raise TerrainError(
-                f"the map is too small for {who}",
+                f"the map of {xmax - xmin:g} x {ymax - ymin:g} m is too small for {who}",
                 element=self.label,
-                value=f"{xmax - xmin:g} x {ymax - ymin:g} m",
                 cure=f"it must be over {span:g} m wide; is the spacing of {self.spacing:g} m right?",
             )
 

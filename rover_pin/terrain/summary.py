@@ -93,5 +93,5 @@ def _region(extent: Extent) -> Extent:
 
 
 def _ticks(low: float, high: float, spacing: float) -> Array:
-    count = 200 if np.isinf(spacing) else max(2, round((high - low) / spacing))
+    count = 200 if np.isinf(spacing) else max(1, round((high - low) / spacing))
     return np.linspace(low, high, min(count, _MOST) + 1)

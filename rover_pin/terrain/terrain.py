@@ -96,7 +96,7 @@ class Terrain(Ground):
             TerrainError: a number out of its range.
         """
         pitch, side = checks.positive("the spacing", spacing), checks.positive("the size", size)
-        if isinstance(seed, bool) or int(seed) != seed or seed < 0:
+        if not isinstance(seed, (int, np.integer)) or isinstance(seed, bool) or seed < 0:
             raise TerrainError("the seed must be a whole number, 0 or more", value=seed)
         if checks.finite("the rms", rms) < 0.0:
             raise TerrainError("the rms must not be negative", value=rms)

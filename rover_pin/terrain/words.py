@@ -30,7 +30,7 @@ def split_word(text: str) -> tuple[str, list[float]] | None:
     if word in WORDS:
         return word, _numbers(text, word, rest if colon else None)
     path = Path(text)
-    if path.exists() or path.suffix or len(path.parts) > 1:
+    if text.strip() and (path.exists() or path.suffix or len(path.parts) > 1):
         return None
     known = ", ".join(usage(w) for w in WORDS)
     cure = nearest(word, WORDS)

@@ -73,7 +73,7 @@ def _check_nodata(path: Path, heights: Any, text: Any) -> None:
         return
     if heights.ndim == 2 and math.isfinite(value):
         gaps = heights == np.asarray(value).astype(heights.dtype)
-        require_no_gaps(gaps, f"cells without data (GDAL_NODATA {value:g})", path)
+        require_no_gaps(gaps, f"no data (GDAL_NODATA {value:g})", path)
 
 
 def _spacing(path: Path, scale: Any, geo: dict[str, Any]) -> float:
