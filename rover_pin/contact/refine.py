@@ -158,3 +158,23 @@ def nested(
                 ga *= 0.5
             side = 1
     return p, c[1]
+
+
+@formula
+def refine(
+    kind: int, table: Array, params: Array, spacing: float, form: int, frame: Frame, cx: float, cy: float,
+    cz: float, ring: float, width: float, p: float, x: float, y: float,
+) -> Seven:  # fmt: skip
+    """The minimum near a seed: Newton's, unless that is no minimum or farther than the seed, else `nested`'s.
+
+    Returns:
+        W (3), n (3), signed distance.
+    """
+    _, found, good = newton(kind, table, params, form, frame, cx, cy, cz, ring, width, p, x, y)
+    px, py, pz, _, _, _, _, _, _ = place(form, frame, cx, cy, cz, ring, p)
+    h = surface(kind, table, params, x, y)[0]
+    start = math.sqrt((px - x) ** 2 + (py - y) ** 2 + (pz - h) ** 2)
+    if good and (found[6] <= start or pz < h):
+        return found
+    _, found = nested(kind, table, params, spacing, form, frame, cx, cy, cz, ring, width, p, x, y)
+    return found
