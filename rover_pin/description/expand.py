@@ -1,0 +1,162 @@
+"""Xacro without ROS: a description file in, URDF text out."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import re
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from rover_pin.description.notes import Notes
+from rover_pin.description.packages import Packages
+from rover_pin.errors import DescriptionError, SidecarError, nearest
+
+_TAG = re.compile(r"<xacro:\w")
+_MACRO = re.compile(r"<xacro:macro\b[^>]*\bname\s*=\s*[\"']([^\"']+)")
+
+
+class _Arguments(dict[str, str]):
+    """Xacro's arguments; remembers which names the files asked for."""
+
+    def __init__(self, given: Mapping[str, str]) -> None:
+        super().__init__(given)
+        self.asked: set[str] = set()
+
+    def __contains__(self, name: object) -> bool:
+        self.asked.add(str(name))
+        return super().__contains__(name)
+
+    def __getitem__(self, name: str) -> str:
+        self.asked.add(name)
+        return super().__getitem__(name)
+
+
+def expand(
+    path: Path,
+    values: Mapping[str, float],
+    packages: Packages,
+    notes: Notes,
+    skip_missing_includes: bool = False,
+) -> str:
+    """The URDF text of a file.
+
+    Plain URDF is returned as it stands; xacro runs for `.xacro` files and where xacro tags are found. Xacro
+    evaluates expressions: load only files you trust.
+
+    Args:
+        path: the file.
+        values: xacro argument -> number.
+        packages: where `$(find package)` looks.
+        notes: told of skipped includes and of xacro's warnings.
+        skip_missing_includes: leave out includes whose file or package is not there.
+
+    Raises:
+        DescriptionError: the file cannot be read, or xacro refuses it, or nothing comes out.
+        SidecarError: a value for a name that is no xacro argument of these files.
+    """
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise DescriptionError(
+            f"cannot be read: {error}", file=path, cure="give a URDF or xacro text file"
+        ) from error
+    if path.suffix != ".xacro" and not _TAG.search(text):
+        _refuse_undeclared(path, values, set(), xacro=False)
+        return text
+    expanded, asked = _run(path, values, packages, notes, skip_missing_includes)
+    _refuse_undeclared(path, values, asked, xacro=True)
+    if "<link" not in expanded:
+        macros = _MACRO.findall(text)
+        cure = (
+            f"it only defines the macro {', '.join(macros[:4])}: name the file that calls it"
+            if macros
+            else "check the arguments and the <xacro:if> conditions"
+        )
+        raise DescriptionError("the xacro expands to no link", file=path, cure=cure)
+    return expanded
+
+
+def _run(
+    path: Path, values: Mapping[str, float], packages: Packages, notes: Notes, skip: bool
+) -> tuple[str, set[str]]:
+    import xacro
+    import xacrodoc
+
+    arguments = _Arguments({name: repr(value) for name, value in values.items()})
+    said = io.StringIO()
+    try:
+        with _around_xacro(packages, notes, skip), contextlib.redirect_stderr(said):
+            xacro.init_stacks(str(path))
+            document = xacrodoc.XacroDoc.from_file(
+                str(path), walk_up=False, subargs=arguments, resolve_packages=False
+            )
+            expanded = str(document.dom.toxml())
+    except DescriptionError:
+        raise
+    except Exception as error:  # xacro raises whatever an expression of the file raises
+        raise DescriptionError(f"xacro: {error}", file=path, cure=_cure(str(error))) from error
+    for line in said.getvalue().splitlines():
+        if line.strip():
+            notes.add(f"xacro: {line.strip()}")
+    return expanded, arguments.asked
+
+
+def _cure(message: str) -> str:
+    missing = re.search(r"package://([^/\s]+)", message)
+    if missing:
+        name = missing.group(1)
+        return f"say where it is: packages={{'{name}': folder}} or --package {name}=FOLDER, or skip missing includes"
+    if "No such file" in message:
+        return "put the file there, or skip missing includes"
+    if "unknown macro" in message:
+        return "include the file that defines the macro"
+    if "Undefined substitution argument" in message:
+        return "declare it with <xacro:arg> and a default, or as a parameter in the sidecar"
+    return "mend the expression in the xacro file"
+
+
+@contextlib.contextmanager
+def _around_xacro(packages: Packages, notes: Notes, skip: bool) -> Iterator[None]:
+    """Xacro with our package finder and, if wanted, missing includes left out.
+
+    An unknown package becomes the path `package://name`, so that it fails only where a file of it is needed
+    (an include), not where it is merely named (a mesh).
+    """
+    import xacro
+    import xacrodoc  # noqa: F401  (it puts its own finder in place when imported, so it goes first)
+    from xacro import substitution_args
+
+    def find(name: str) -> str:
+        folder = packages.find(name)
+        return f"package://{name}" if folder is None else str(folder)
+
+    def include(element: Any, macros: Any, symbols: Any, process: Callable[..., Any]) -> None:
+        try:
+            usual_include(element, macros, symbols, process)
+        except xacro.XacroException as error:
+            if not (skip and isinstance(error.exc, OSError)):
+                raise
+            notes.add(f"include {element.getAttribute('filename')} is missing: skipped")
+            xacro.replace_node(element, by=None)
+
+    usual_find, usual_include = substitution_args._eval_find, xacro.process_include
+    substitution_args._eval_find, xacro.process_include = find, include
+    try:
+        yield
+    finally:
+        substitution_args._eval_find, xacro.process_include = usual_find, usual_include
+
+
+def _refuse_undeclared(path: Path, values: Mapping[str, float], asked: set[str], xacro: bool) -> None:
+    for name in values:
+        if name not in asked:
+            what = (
+                f"no <xacro:arg> of that name in {path.name}"
+                if xacro
+                else f"{path.name} is plain URDF without arguments"
+            )
+            raise SidecarError(
+                what, element=f"parameters.{name}", cure=nearest(name, asked) if asked else "remove it"
+            )

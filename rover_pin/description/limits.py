@@ -1,0 +1,78 @@
+"""Joint limits: what counts as none, as a lock, or as an error."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from rover_pin.description.notes import Notes
+from rover_pin.description.tree import Element, Tree
+
+NO_LIMIT = 1e10  # rad, m, N or N m: such a number was written to mean that there is none
+LOCK = 1e-6  # rad or m between the limits: such a joint does not move
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Limits of a moving joint; +-inf where there are none.
+
+    Attributes:
+        lower, upper: rad or m.
+        effort: N m or N.
+        velocity: rad/s or m/s.
+    """
+
+    lower: float = -math.inf
+    upper: float = math.inf
+    effort: float = math.inf
+    velocity: float = math.inf
+
+    @property
+    def locks(self) -> bool:
+        """Whether they leave nothing to move."""
+        return self.upper - self.lower < LOCK
+
+
+def read_limits(tree: Tree, name: str, joint: Element, notes: Notes) -> Limits:
+    """The limits of a moving joint.
+
+    `lower` and `upper` default to zero where only one of them stands, as URDF says; where neither stands the
+    joint is taken to have none.
+
+    Raises:
+        DescriptionError: lower above upper, or a negative effort or velocity.
+    """
+    element = joint.find("limit")
+    continuous = joint.get("type") == "continuous"
+    if element is None:
+        if not continuous:
+            notes.add(f"joint {name}: no limits stated, taken as unbounded")
+        return Limits()
+    effort, velocity = (_strength(tree, name, element, key, notes) for key in ("effort", "velocity"))
+    if continuous:
+        if element.get("lower") is not None or element.get("upper") is not None:
+            notes.add(f"joint {name}: limits of a continuous joint ignored")
+        return Limits(effort=effort, velocity=velocity)
+    if element.get("lower") is None and element.get("upper") is None:
+        notes.add(f"joint {name}: no limits stated, taken as unbounded")
+        return Limits(effort=effort, velocity=velocity)
+    lower, upper = float(element.get("lower", 0.0)), float(element.get("upper", 0.0))
+    if lower > upper:
+        raise tree.error("lower limit above the upper", f"joint {name}", f"{lower} > {upper}", "swap them")
+    if lower <= -NO_LIMIT or upper >= NO_LIMIT:
+        notes.add(f"joint {name}: limits {lower:g}, {upper:g} are so wide that they count as none")
+    return Limits(
+        -math.inf if lower <= -NO_LIMIT else lower, math.inf if upper >= NO_LIMIT else upper, effort, velocity
+    )
+
+
+def _strength(tree: Tree, name: str, element: Element, key: str, notes: Notes) -> float:
+    text = element.get(key)
+    if text is None:
+        return math.inf
+    value = float(text)
+    if value < 0:
+        raise tree.error(f"negative {key} limit", f"joint {name}", text, "give its size")
+    if value == 0.0:
+        notes.add(f"joint {name}: {key} limit 0 taken as not stated")
+    return math.inf if value == 0.0 or value >= NO_LIMIT else value

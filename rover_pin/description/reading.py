@@ -1,0 +1,178 @@
+"""YAML into pydantic models, with errors that name the file, the line, the key's path and the cure."""
+
+from __future__ import annotations
+
+import types
+import typing
+from collections.abc import Sequence
+from typing import Any, TypeVar
+
+import yaml
+from pydantic import BaseModel, ValidationError
+
+from rover_pin.errors import SidecarError, nearest
+
+M = TypeVar("M", bound=BaseModel)
+Path = tuple[str | int, ...]
+
+
+def parse_yaml(
+    text: str, file: object, error: type[SidecarError] = SidecarError
+) -> tuple[dict[str, Any], yaml.Node]:
+    """The mapping a YAML text holds, and its node tree for line numbers. Read safely: no tags run code.
+
+    Raises:
+        SidecarError: not YAML, a key stated twice, or not a mapping.
+    """
+    try:
+        node = yaml.compose(text, Loader=yaml.SafeLoader)
+        data = yaml.safe_load(text)
+    except yaml.YAMLError as problem:
+        mark = getattr(problem, "problem_mark", None)
+        place = f"{file}:{mark.line + 1}" if mark is not None else file
+        why = getattr(problem, "problem", None) or str(problem)
+        raise error(
+            f"not YAML: {why}", file=place, cure="check indentation, colons and brackets"
+        ) from problem
+    if not isinstance(node, yaml.MappingNode) or not isinstance(data, dict):
+        raise error("not a mapping of keys to values", file=file, cure="start with `schema: 1`")
+    _refuse_twice(node, file, (), error)
+    return data, node
+
+
+def _refuse_twice(node: yaml.Node, file: object, path: Path, error: type[SidecarError]) -> None:
+    if isinstance(node, yaml.MappingNode):
+        seen: dict[str, int] = {}
+        for key, value in node.value:
+            line = key.start_mark.line + 1
+            if key.value in seen:
+                raise error(
+                    f"stated twice, first in line {seen[key.value]}",
+                    file=f"{file}:{line}",
+                    element=dotted((*path, key.value)),
+                    cure="keep one",
+                )
+            seen[key.value] = line
+            _refuse_twice(value, file, (*path, key.value), error)
+    elif isinstance(node, yaml.SequenceNode):
+        for i, value in enumerate(node.value):
+            _refuse_twice(value, file, (*path, i), error)
+
+
+def validated(
+    model: type[M],
+    data: dict[str, Any],
+    node: yaml.Node | None,
+    file: object,
+    error: type[SidecarError] = SidecarError,
+) -> M:
+    """`data` as `model`; the first complaint as one of our errors.
+
+    Raises:
+        SidecarError: an unknown key (with the nearest known one), a missing key, or a value of the wrong kind.
+    """
+    try:
+        return model.model_validate(data)
+    except ValidationError as problem:
+        first = _worst(problem)
+        path = _in_data(first["loc"], data, missing=first["type"] == "missing")
+        raise error(
+            _what(first),
+            file=place(file, node, path),
+            element=dotted(path),
+            value=_shown(first),
+            cure=_cure(first, model, path, data),
+        ) from problem
+
+
+def _worst(problem: ValidationError) -> Any:
+    """An unknown key before all else: what is missing is often there under a misspelt name."""
+    errors = problem.errors(include_url=False)
+    return next((e for e in errors if e["type"] == "extra_forbidden"), errors[0])
+
+
+def _what(first: Any) -> str:
+    kind = first["type"]
+    if kind == "extra_forbidden":
+        return "unknown key"
+    if kind == "missing":
+        return "missing"
+    message = str(first["msg"]).removeprefix("Value error, ")
+    return message[:1].lower() + message[1:]
+
+
+def _shown(first: Any) -> object:
+    value = first["input"]
+    if first["type"] in {"extra_forbidden", "missing"} or isinstance(value, (dict, list)):
+        return None
+    return value if isinstance(value, (str, int, float)) else str(value)
+
+
+def _cure(first: Any, model: type[BaseModel], path: Path, data: Any) -> str | None:
+    if first["type"] == "extra_forbidden":
+        names: set[str] = set()
+        for owner in _models_at(model, path[:-1]):
+            names |= {f.alias or n for n, f in owner.model_fields.items()}
+        return nearest(str(path[-1]), names)
+    if first["type"] == "missing":
+        return "state it"
+    return None
+
+
+def _in_data(location: Sequence[str | int], data: Any, missing: bool) -> Path:
+    """The part of pydantic's location that stands in the file (union tags and key markers do not)."""
+    path: list[str | int] = []
+    here = data
+    last = len(location) - 1
+    for i, step in enumerate(location):
+        if isinstance(here, dict) and (step in here or (missing and i == last)):
+            path.append(step)
+            here = here.get(step)
+        elif isinstance(here, (list, tuple)) and isinstance(step, int):
+            path.append(step)
+            here = here[step] if step < len(here) else None
+    return tuple(path)
+
+
+def _models_at(annotation: Any, path: Path) -> list[type[BaseModel]]:
+    """The models that may stand at `path` below a model or annotation."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        if not path:
+            return [annotation]
+        for name, info in annotation.model_fields.items():
+            if (info.alias or name) == path[0]:
+                return _models_at(info.annotation, path[1:])
+        return []
+    origin, args = typing.get_origin(annotation), typing.get_args(annotation)
+    if origin is typing.Annotated:
+        return _models_at(args[0], path)
+    if origin in {typing.Union, types.UnionType}:
+        return [m for a in args for m in _models_at(a, path)]
+    if origin in {list, tuple, dict} and path:
+        return [m for a in args for m in _models_at(a, path[1:])]
+    return []
+
+
+def place(file: object, node: yaml.Node | None, path: Path) -> str:
+    """`file:line` of the deepest node along `path`."""
+    line = None
+    for step in path:
+        if isinstance(node, yaml.MappingNode):
+            found = next(((k, v) for k, v in node.value if k.value == str(step)), None)
+            if found is None:
+                break
+            line, node = found[0].start_mark.line + 1, found[1]
+        elif isinstance(node, yaml.SequenceNode) and isinstance(step, int) and step < len(node.value):
+            node = node.value[step]
+            line = node.start_mark.line + 1
+        else:
+            break
+    return f"{file}" if line is None else f"{file}:{line}"
+
+
+def dotted(path: Path) -> str:
+    """`wheels[0].radius`."""
+    text = ""
+    for step in path:
+        text += f"[{step}]" if isinstance(step, int) else (f".{step}" if text else str(step))
+    return text
