@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import pickle
 import weakref
 
@@ -21,6 +22,7 @@ STEP = 1e-3
 # Centre; x by 1, -1, 2, -2 steps; y likewise; the four corners.
 _STENCIL_X = np.array([0, 1, -1, 2, -2, 0, 0, 0, 0, 1, 1, -1, -1], dtype=np.float64)
 _STENCIL_Y = np.array([0, 0, 0, 0, 0, 1, -1, 2, -2, 1, -1, 1, -1], dtype=np.float64)
+_CROSS = np.array([0, 1, 2, 5, 6])
 
 _handles = itertools.count(1)
 _functions: weakref.WeakValueDictionary[int, HeightFunction] = weakref.WeakValueDictionary()
@@ -49,6 +51,7 @@ class HeightFunction:
         self.spacing = spacing
         self._given = (height, gradient)
         self._step = STEP * spacing
+        self._around = (self._step * _STENCIL_X, self._step * _STENCIL_Y)
         self._height = height_of_arrays(height, extent, spacing)
         self._gradient = None if gradient is None else gradient_of_arrays(gradient, extent, spacing)
         self.handle = next(_handles)
@@ -111,7 +114,7 @@ class HeightFunction:
 
     def _from_heights(self, x: float, y: float) -> Six:
         e = self._step
-        f = self._height(x + e * _STENCIL_X, y + e * _STENCIL_Y).tolist()
+        f = self._height(x + self._around[0], y + self._around[1]).tolist()
         hx = (8.0 * (f[1] - f[2]) - (f[3] - f[4])) / (12.0 * e)
         hy = (8.0 * (f[5] - f[6]) - (f[7] - f[8])) / (12.0 * e)
         hxx = (16.0 * (f[1] + f[2]) - (f[3] + f[4]) - 30.0 * f[0]) / (12.0 * e * e)
@@ -123,7 +126,8 @@ class HeightFunction:
         self, gradient: Gradient, x: float, y: float
     ) -> tuple[float, float, float, float, float]:
         e = self._step
-        gx, gy = gradient(x + e * _STENCIL_X[[0, 1, 2, 5, 6]], y + e * _STENCIL_Y[[0, 1, 2, 5, 6]])
+        dx, dy = self._around
+        gx, gy = gradient(x + dx[_CROSS], y + dy[_CROSS])
         hxx = float(gx[1] - gx[2]) / (2.0 * e)
         hyy = float(gy[3] - gy[4]) / (2.0 * e)
         hxy = float(gx[3] - gx[4] + gy[1] - gy[2]) / (4.0 * e)
@@ -142,7 +146,7 @@ def evaluate(handle: int, x: float, y: float) -> Six:
             "the terrain's function is gone", cure="keep the Terrain while its table is in use"
         )
     values = function.derivatives(x, y)
-    if not np.isfinite(sum(values)) and np.isfinite(x + y):
+    if not math.isfinite(sum(values)) and math.isfinite(x + y):
         raise _hole(values[0], x, y)
     return values
 
