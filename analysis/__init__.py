@@ -1,0 +1,5 @@
+"""Studies: many cases of one question, run by an engine, answered as one labelled Dataset."""
+
+from rover_pin.analysis.study import Study
+
+__all__ = ["Study"]

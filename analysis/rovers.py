@@ -1,0 +1,71 @@
+"""The rovers of a study: one as loaded, and the same with other parameters."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rover_pin.analysis.spec import StudySpec
+
+if TYPE_CHECKING:
+    from rover_pin.rover import Rover
+
+KEPT = 32
+
+
+class Rovers:
+    """A rover under different parameters, the latest kept: cases that share parameters share a rover."""
+
+    def __init__(self, base: Rover) -> None:
+        self.base = base
+        self._kept: OrderedDict[tuple[tuple[str, float], ...], Rover] = OrderedDict()
+
+    def __call__(self, parameters: Mapping[str, float]) -> Rover:
+        """The rover with these parameters.
+
+        Raises:
+            InputError: parameters that the rover cannot have.
+        """
+        if not parameters:
+            return self.base
+        key = tuple(parameters.items())
+        if key not in self._kept:
+            self._kept[key] = self.base.with_parameters(**parameters)
+        self._kept.move_to_end(key)
+        if len(self._kept) > KEPT:
+            self._kept.popitem(last=False)
+        return self._kept[key]
+
+
+def load_from(spec: StudySpec, folder: Path) -> Rover:
+    """The rover a study names, with its payload; relative files count from `folder`.
+
+    Raises:
+        InputError: the files cannot be used.
+    """
+    from rover_pin.loader import load
+
+    rover = load(
+        _absolute(spec.robot, folder),
+        sidecar=None if spec.sidecar is None else folder / Path(spec.sidecar).expanduser(),
+        packages={name: folder / Path(path).expanduser() for name, path in spec.packages.items()} or None,
+        skip_missing_includes=spec.skip_missing_includes,
+    )
+    return loaded(rover, spec)
+
+
+def loaded(rover: Rover, spec: StudySpec) -> Rover:
+    """The rover with the study's payload."""
+    return rover.with_payload([(load.kg, load.at) for load in spec.payload]) if spec.payload else rover
+
+
+def _absolute(text: str, folder: Path) -> str:
+    """A robot's name as it is where it is bundled, else the absolute path where something lies there."""
+    from rover_pin.description.catalogue import robots
+
+    if any(entry.name == text for entry in robots()):
+        return text
+    path = folder / Path(text).expanduser()
+    return str(path.resolve()) if path.exists() else text

@@ -1,0 +1,155 @@
+"""The study file as a model: every value checked that can be checked without the robot."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, field_validator, model_validator
+
+from rover_pin.analysis.ground import ground
+from rover_pin.analysis.measures import known_measures
+from rover_pin.analysis.quantities import (
+    MAP,
+    OptionalField,
+    PlaceField,
+    Quantity,
+    QuantityField,
+    Span,
+    quantity,
+)
+from rover_pin.analysis.strict import Strict, checked
+from rover_pin.analysis.words import gravity, posture
+from rover_pin.analysis.yaml_file import read_mapping
+from rover_pin.errors import StudyError, nearest
+
+MOST_CASES = 10_000_000
+ROBOTS = 128
+
+DEFAULT_STUDY = """\
+robot: rocker_bogie
+terrain: {rough: {seed: 1, rms: 0.05, hurst: 0.8, size: 20, spacing: 0.05}}
+cases: {sampler: sobol, n: 10000, seed: 0}
+vary: {x: map, y: map, yaw_deg: [0, 360], posture: [home], parameters: {track: [1.0, 1.4]}, friction: [0.5]}
+measures: [loads, polygon, tip, force_angle, energy, zmp, clearance]
+gravity: 9.81
+payload: []
+"""
+"""What `rover-pin study` runs without a file."""
+
+CHEAP = ("loads", "polygon", "tip", "force_angle", "energy", "zmp", "clearance")
+
+
+class CasesSpec(Strict):
+    """How cases are drawn.
+
+    `sobol`: n scrambled Sobol points of `seed` over everything that varies. `grid`: every combination, ranges
+    cut into the counts of `grid` (by the quantity's name), or into one common count so that there are at
+    most n cases. Under `sobol` parameters are drawn as `robots` different robots, each for a run of cases,
+    because every robot is read anew from its files.
+    """
+
+    sampler: Literal["sobol", "grid"] = "sobol"
+    n: int | None = Field(default=None, ge=1, le=MOST_CASES)
+    seed: int = Field(default=0, ge=0)
+    grid: dict[str, Annotated[int, Field(ge=1)]] | None = None
+    robots: int = Field(default=ROBOTS, ge=1, le=MOST_CASES)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _sampler_follows_grid(cls, raw: Any) -> Any:
+        if isinstance(raw, dict) and raw.get("grid") is not None:
+            if raw.get("sampler", "grid") != "grid":
+                raise StudyError("counts need the sampler grid", element="grid", value=raw["sampler"])
+            if raw.get("n") is not None:
+                raise StudyError("n and grid both say how many", element="n", value=raw["n"], cure="keep one")
+            return {**raw, "sampler": "grid"}
+        return raw
+
+    @property
+    def number(self) -> int:
+        """The number of cases asked for (the most, under a grid)."""
+        return 10_000 if self.n is None else self.n
+
+
+class VarySpec(Strict):
+    """What varies: x, y [m], yaw [deg], postures, parameters, joints [rad or m], friction.
+
+    What is silent does not vary: the middle of the map (the origin where it has no edge), heading 0, home,
+    declared parameters and friction.
+    """
+
+    x: PlaceField = None
+    y: PlaceField = None
+    yaw_deg: QuantityField = quantity(0.0)
+    posture: tuple[str, ...] | None = None
+    parameters: dict[str, QuantityField] = Field(default_factory=dict)
+    joints: dict[str, QuantityField] = Field(default_factory=dict)
+    friction: OptionalField = None
+
+    @field_validator("posture", mode="before")
+    @classmethod
+    def _one_posture(cls, raw: Any) -> Any:
+        names = [raw] if isinstance(raw, str) else raw
+        if isinstance(names, list | tuple):
+            if not names:
+                raise StudyError("names no posture", cure="write [home], or leave it out")
+            for name in names:
+                posture(str(name))
+        return names
+
+    @field_validator("friction")
+    @classmethod
+    def _positive(cls, given: Quantity | None) -> Quantity | None:
+        if given is not None and given.ends[0] <= 0:
+            raise StudyError("must be more than zero", value=given.ends[0])
+        return given
+
+
+class PayloadSpec(Strict):
+    """A mass [kg] at a point of the base [m]."""
+
+    kg: float = Field(gt=0)
+    at: tuple[float, float, float]
+
+
+def _measures(raw: Any) -> Any:
+    names = [raw] if isinstance(raw, str) else raw
+    if isinstance(names, list | tuple):
+        for name in names:
+            if name not in known_measures():
+                raise StudyError("no such measure", value=name, cure=nearest(str(name), known_measures()))
+        if len(set(names)) < len(names):
+            raise StudyError("names a measure twice", value=", ".join(names))
+    return names
+
+
+Ground = Annotated[Any, BeforeValidator(ground)]
+Measures = Annotated[tuple[str, ...], BeforeValidator(_measures)]
+Gravity = Annotated[float, BeforeValidator(gravity)]
+
+
+class StudySpec(Strict):
+    """A study file."""
+
+    robot: str = Field(min_length=1)
+    sidecar: str | None = None
+    packages: dict[str, str] = Field(default_factory=dict)
+    skip_missing_includes: bool = False
+    terrain: Ground
+    cases: CasesSpec = CasesSpec()
+    vary: VarySpec = VarySpec(x=MAP, y=MAP, yaw_deg=Span(0.0, 360.0))
+    locks: tuple[str, ...] = ()
+    measures: Measures = CHEAP
+    gravity: Gravity = 9.81
+    payload: tuple[PayloadSpec, ...] = ()
+
+
+def read_spec(path: Path) -> tuple[StudySpec, str]:
+    """The study file at `path`, checked, and its text.
+
+    Raises:
+        StudyError: no such file, not YAML, or a value that cannot be used.
+    """
+    raw, text = read_mapping(path)
+    return checked(StudySpec, raw, file=path), text

@@ -1,0 +1,122 @@
+"""Options that several commands share, and how their words are read."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from rover_pin.errors import InputError
+
+if TYPE_CHECKING:
+    from rover_pin.rover import Rover
+
+Robot = Annotated[str, typer.Argument(help="Bundled name, or path of a URDF or xacro.", metavar="ROBOT")]
+Sidecar = Annotated[
+    Path | None, typer.Option(help="The rover.yaml beside the URDF.", metavar="FILE", show_default=False)
+]
+Packages = Annotated[
+    list[str] | None, typer.Option("--package", help="Where a ROS package lies.", metavar="NAME=DIR")
+]
+SkipIncludes = Annotated[
+    bool, typer.Option("--skip-missing-includes", help="Pass over xacro files not there.")
+]
+Parameters = Annotated[
+    list[str] | None, typer.Option("--param", help="Value of a declared parameter.", metavar="NAME=VALUE")
+]
+Json = Annotated[bool, typer.Option("--json", help="One JSON object instead of a table.")]
+
+
+def pairs(words: Sequence[str] | None, option: str) -> dict[str, str]:
+    """`NAME=VALUE` words as a mapping.
+
+    Raises:
+        InputError: no `=`, an empty side, or a name twice.
+    """
+    found: dict[str, str] = {}
+    for word in words or ():
+        name, sign, value = word.partition("=")
+        if not (name and sign and value):
+            raise InputError(
+                "is not NAME=VALUE", element=option, value=word, cure=f"write {option} name=value"
+            )
+        if name in found:
+            raise InputError("is given twice", element=f"{option} {name}", cure="keep one")
+        found[name] = value
+    return found
+
+
+def number(word: str, element: str) -> float:
+    """A finite number.
+
+    Raises:
+        InputError: it is none.
+    """
+    try:
+        value = float(word)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise InputError("is not a finite number", element=element, value=word)
+    return value
+
+
+def numbers(words: Sequence[str] | None, option: str) -> dict[str, float]:
+    """`NAME=NUMBER` words as a mapping."""
+    return {name: number(word, f"{option} {name}") for name, word in pairs(words, option).items()}
+
+
+def place(word: str) -> tuple[float, float, float]:
+    """`X,Y,YAW_DEG` as m, m, rad; the heading may be left out.
+
+    Raises:
+        InputError: not two or three numbers.
+    """
+    parts = word.split(",")
+    if len(parts) not in (2, 3):
+        raise InputError("is not X,Y,YAW_DEG", element="--at", value=word, cure="write --at 1.5,-2,30")
+    x, y, yaw = (number(part, "--at") for part in [*parts, "0"][:3])
+    return x, y, math.radians(yaw)
+
+
+def payload(word: str) -> tuple[float, tuple[float, float, float]]:
+    """`KG@X,Y,Z` as a mass and a point on the base.
+
+    Raises:
+        InputError: not of that form, or no positive mass.
+    """
+    mass, sign, point = word.partition("@")
+    parts = point.split(",")
+    if not sign or len(parts) != 3:
+        raise InputError("is not KG@X,Y,Z", element="--payload", value=word, cure="write --payload 5@0,0,0.3")
+    kg = number(mass, "--payload")
+    if kg <= 0:
+        raise InputError("mass must be more than zero", element="--payload", value=word)
+    x, y, z = (number(part, "--payload") for part in parts)
+    return kg, (x, y, z)
+
+
+def load_rover(
+    robot: str,
+    sidecar: Path | None,
+    packages: Sequence[str] | None,
+    skip_missing_includes: bool,
+    parameters: Sequence[str] | None,
+) -> Rover:
+    """The rover that the shared options describe.
+
+    Raises:
+        InputError: an option or a file that cannot be used.
+    """
+    from rover_pin import load
+
+    return load(
+        robot,
+        sidecar=sidecar,
+        packages=dict(pairs(packages, "--package")) or None,
+        skip_missing_includes=skip_missing_includes,
+        **numbers(parameters, "--param"),
+    )

@@ -1,0 +1,115 @@
+"""`rover-pin settle`: how a rover stands at a place."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from rover_pin.cli.options import (
+    Json,
+    Packages,
+    Parameters,
+    Robot,
+    Sidecar,
+    SkipIncludes,
+    load_rover,
+    number,
+    numbers,
+    place,
+)
+from rover_pin.cli.options import payload as parse_payload
+
+if TYPE_CHECKING:
+    from rover_pin.rover import Rover
+    from rover_pin.statics.stance import Stance
+
+
+def settle(
+    robot: Robot,
+    sidecar: Sidecar = None,
+    package: Packages = None,
+    skip_missing_includes: SkipIncludes = False,
+    terrain: Annotated[
+        str, typer.Option(help="A height map's file, flat, slope:DEG, step:HEIGHT,X or rough:SEED,RMS,HURST.")
+    ] = "flat",
+    spacing: Annotated[float | None, typer.Option(help="Of the map's nodes, m.")] = None,
+    interpolation: Annotated[str, typer.Option(help="Of the map: smooth or linear.")] = "smooth",
+    at: Annotated[str, typer.Option(help="Place and heading.", metavar="X,Y,YAW_DEG")] = "0,0,0",
+    posture: Annotated[str | None, typer.Option(help="Posture.", metavar="NAME|clearance=M")] = None,
+    joint: Annotated[
+        list[str] | None, typer.Option(help="Hold a joint, rad or m.", metavar="NAME=VALUE")
+    ] = None,
+    lock: Annotated[list[str] | None, typer.Option(help="Lock a passive joint.", metavar="NAME")] = None,
+    param: Parameters = None,
+    gravity: Annotated[str, typer.Option(help="m/s2, or earth, moon, mars.")] = "earth",
+    payload: Annotated[list[str] | None, typer.Option(help="Mass on the base.", metavar="KG@X,Y,Z")] = None,
+    friction: Annotated[str | None, typer.Option(help="Friction under every wheel.", metavar="MU")] = None,
+    html: Annotated[Path | None, typer.Option(help="Write a page that shows it.", metavar="FILE")] = None,
+    png: Annotated[
+        Path | None, typer.Option(help="Write a picture (needs Chromium).", metavar="FILE")
+    ] = None,
+    json: Json = False,
+) -> int:
+    """How a rover stands, what each wheel carries, how close it is to tipping."""
+    from rover_pin import settle as stand
+    from rover_pin.analysis.words import gravity as parse_gravity
+    from rover_pin.analysis.words import posture as parse_posture
+    from rover_pin.cli.output import aside, check_outputs, print_json
+    from rover_pin.cli.stance_report import measured, print_stance, stance_object
+    from rover_pin.terrain import Terrain
+
+    check_outputs(html, png)
+    x, y, yaw = place(at)
+    mu = _friction(friction)
+    ground = Terrain.parse(terrain, spacing=spacing, interpolation=interpolation)
+    rover = _loaded(load_rover(robot, sidecar, package, skip_missing_includes, param), payload)
+    stance = stand(
+        rover,
+        ground,
+        x=x,
+        y=y,
+        yaw=yaw,
+        posture=None if posture is None else parse_posture(posture),
+        joints=numbers(joint, "--joint") or None,
+        locks=tuple(lock or ()),
+        gravity=parse_gravity(gravity),
+    )
+    margins = measured(stance, mu)
+    _save(stance, html, png)
+    if json:
+        print_json(stance_object(stance, margins))
+    else:
+        print_stance(stance, margins)
+    for path in (html, png):
+        if path is not None:
+            aside(f"wrote {path}")
+    return 0 if stance.settled else 1
+
+
+def _loaded(rover: Rover, words: list[str] | None) -> Rover:
+    loads = [parse_payload(word) for word in words or ()]
+    return rover.with_payload(loads) if loads else rover
+
+
+def _friction(word: str | None) -> float | None:
+    from rover_pin.errors import InputError
+
+    if word is None:
+        return None
+    value = number(word, "--friction")
+    if value <= 0:
+        raise InputError("must be more than zero", element="--friction", value=word)
+    return value
+
+
+def _save(stance: Stance, html: Path | None, png: Path | None) -> None:
+    if html is None and png is None:
+        return
+    from rover_pin import viz
+
+    if html is not None:
+        viz.save_html(stance, html)
+    if png is not None:
+        viz.save_png(stance, png)

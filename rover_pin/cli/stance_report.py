@@ -1,0 +1,107 @@
+"""A stance as the object and the tables that `settle` prints."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from rover_pin.cli.output import figure, line, new_table, print_table
+
+if TYPE_CHECKING:
+    from rover_pin.stability.margin import Margin
+    from rover_pin.statics.stance import Stance
+
+
+def measured(stance: Stance, friction: float | None) -> dict[str, Margin]:
+    """Every measure of a settled stance; none of another."""
+    if not stance.settled:
+        return {}
+    from rover_pin.stability.report import stability
+
+    return dict(stability(stance, friction=friction))
+
+
+def stance_object(stance: Stance, margins: Mapping[str, Margin]) -> dict[str, Any]:
+    """What `settle --json` prints; lengths in m, angles in rad, forces in N."""
+    contacts: dict[str, list[dict[str, Any]]] = {shape.name: [] for shape in stance.rover.shapes}
+    for contact in stance.contacts:
+        told = {"point_m": contact.point, "normal": contact.normal, "load_n": _load(stance, contact.load)}
+        contacts[contact.wheel].append(told)
+    return {
+        "robot": stance.rover.name,
+        "status": str(stance.status),
+        "reason": stance.reason,
+        "base": {"position_m": stance.position, "rpy_rad": stance.rpy},
+        "joints": stance.joints,
+        "wheels": {
+            name: {
+                "load_n": _load(stance, stance.loads.get(name)),
+                "gap_m": stance.gaps.get(name),
+                "contacts": contacts[name],
+            }
+            for name in contacts
+        },
+        "tensions_n": stance.tensions,
+        "springs_n": stance.springs,
+        "stability": {
+            name: {
+                "value": margin.value,
+                "unit": margin.unit,
+                "limiting": margin.limiting,
+                "edges": margin.edges,
+                **({"note": margin.note} if margin.note else {}),
+            }
+            for name, margin in margins.items()
+        },
+        "residuals": stance.residuals,
+        "redundant": stance.redundant,
+        "undetermined": stance.undetermined,
+        "notes": stance.rover.notes,
+    }
+
+
+def _load(stance: Stance, load: float | None) -> float | None:
+    """A load, which only a settled stance has."""
+    return load if stance.settled else None
+
+
+def print_stance(stance: Stance, margins: Mapping[str, Margin]) -> None:
+    """The stance for people: status, pose, wheels, measures, residuals."""
+    reason = f": {stance.reason}" if stance.reason else ""
+    line(f"{stance.rover.name} on {stance.terrain.label}: {stance.status}{reason}")
+    x, y, z = stance.position
+    roll, pitch, yaw = (math.degrees(angle) for angle in stance.rpy)
+    line(f"x {x:.4f}  y {y:.4f}  z {z:.4f} m   roll {roll:.3f}  pitch {pitch:.3f}  yaw {yaw:.3f} deg")
+    if not stance.settled:
+        return
+    _print_wheels(stance)
+    _print_measures(margins)
+    line("residuals: " + "  ".join(f"{name} {value:.1e}" for name, value in stance.residuals.items()))
+    if stance.redundant:
+        line(
+            f"redundant: {stance.redundant} supports more than equilibrium determines; least squares of loads"
+        )
+    if stance.undetermined:
+        line(f"undetermined, kept at the posture: {', '.join(stance.undetermined)}")
+
+
+def _print_wheels(stance: Stance) -> None:
+    table = new_table("", "wheel", "load N", "share %", "gap mm", "contacts")
+    total = sum(stance.loads.values())
+    for shape in stance.rover.shapes:
+        load = stance.loads.get(shape.name, 0.0)
+        touching = sum(contact.wheel == shape.name for contact in stance.contacts)
+        gap = 1e3 * stance.gaps.get(shape.name, math.nan)
+        share = 100.0 * load / total if total else math.nan
+        table.add_row(
+            shape.name, f"{load:.2f}", f"{share:.1f}", f"{gap:.3f}" if abs(gap) > 5e-4 else "0", str(touching)
+        )
+    print_table(table)
+
+
+def _print_measures(margins: Mapping[str, Margin]) -> None:
+    table = new_table("", "measure", "limiting", "better", "value", "unit", left=3)
+    for name, margin in margins.items():
+        table.add_row(name, margin.limiting or "-", margin.better, figure(margin.value, 5), margin.unit)
+    print_table(table)

@@ -1,0 +1,88 @@
+"""`rover-pin study`: many cases into one file, a page and a summary."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from rover_pin.cli.options import Json
+
+if TYPE_CHECKING:
+    from rover_pin.analysis.study import Progress
+
+INTERRUPTED = 130
+
+
+def study(
+    spec: Annotated[
+        Path | None, typer.Argument(help="Study file; silent: the default study.", metavar="SPEC")
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", "-o", help="Result, netCDF; silent: SPEC.nc here.", metavar="OUT.nc"),
+    ] = None,
+    engine: Annotated[str, typer.Option(help="serial, process, ...")] = "process",
+    workers: Annotated[
+        int | None, typer.Option(help="Worker processes; silent: one a core.", metavar="N")
+    ] = None,
+    scheduler: Annotated[str | None, typer.Option(help="Of a cluster's engine.", metavar="ADDRESS")] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with a run that was stopped.")] = False,
+    html: Annotated[Path | None, typer.Option(help="Write the study's page.", metavar="FILE")] = None,
+    json: Json = False,
+) -> int:
+    """Many cases of one question, each a row of a dataset."""
+    from rover_pin.analysis import Study
+    from rover_pin.cli.output import aside, check_outputs, print_json
+    from rover_pin.cli.study_report import print_study, study_object
+
+    path = out or Path(f"{spec.stem if spec else 'study'}.nc")
+    check_outputs(path, html)
+    asked = Study.default() if spec is None else Study.from_file(spec)
+    started = time.perf_counter()
+    try:
+        with _bar() as progress:
+            data = asked.run(
+                engine=engine,
+                workers=workers,
+                scheduler=scheduler,
+                out=path,
+                resume=resume,
+                progress=progress,
+            )
+    except KeyboardInterrupt:
+        aside(f"interrupted; what is finished is kept in {path}.parts: go on with --resume")
+        return INTERRUPTED
+    seconds = time.perf_counter() - started
+    if html is not None:
+        from rover_pin import viz
+
+        viz.save_study_page(data, html)
+    if json:
+        print_json(study_object(data, path, html, seconds))
+    else:
+        print_study(data, seconds)
+    for written in (path, html):
+        if written is not None:
+            aside(f"wrote {written}")
+    return 0 if bool((data["status"] == "settled").any()) else 1
+
+
+@contextmanager
+def _bar() -> Iterator[Progress | None]:
+    """A progress bar on stderr where that is a terminal."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (TextColumn("cases"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("cases", total=None)
+        yield lambda finished, count: bar.update(task, completed=finished, total=count)

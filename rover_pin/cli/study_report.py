@@ -1,0 +1,83 @@
+"""A study's result as the object and the tables that `study` prints."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rover_pin.analysis.summary import SHARES, largest_residuals, measures, spread, statuses
+from rover_pin.cli.output import figure, line, new_table, print_table
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+WORST = 10
+
+
+def study_object(data: xr.Dataset, out: Path, html: Path | None, seconds: float) -> dict[str, Any]:
+    """What `study --json` prints."""
+    spreads = {name: spread(data, name, WORST) for name in measures(data)}
+    return {
+        "robot": data.attrs["robot"],
+        "terrain": data.attrs["terrain"],
+        "cases": data.sizes["case"],
+        "status": statuses(data),
+        "measures": {
+            name: {
+                "unit": each.unit,
+                "better": each.better,
+                "percentiles": each.percentiles,
+                "worst": [{"case": w.case, "value": w.value, "limiting": w.limiting} for w in each.worst],
+            }
+            for name, each in spreads.items()
+        },
+        "residuals": largest_residuals(data),
+        "seconds": seconds,
+        "out": str(out),
+        "html": None if html is None else str(html),
+    }
+
+
+def print_study(data: xr.Dataset, seconds: float) -> None:
+    """The result for people: how cases ended, each measure's spread, the worst cases."""
+    count = data.sizes["case"]
+    line(f"{data.attrs['title']}: {count} cases in {seconds:.1f} s")
+    line(
+        "  ".join(
+            f"{word} {number} ({100 * number / count:.1f} %)" for word, number in statuses(data).items()
+        )
+    )
+    names = measures(data)
+    if not names or not (data["status"] == "settled").any():
+        return
+    table = new_table(
+        "", "measure", "unit", "better", *(f"{share} %" for share in SHARES), "worst case", left=3
+    )
+    for name in names:
+        each = spread(data, name, 1)
+        shares = (figure(value) for value in each.percentiles.values())
+        worst = each.worst[0]
+        told = f"{figure(worst.value)} at {worst.case}" + (f" ({worst.limiting})" if worst.limiting else "")
+        table.add_row(name, each.unit, each.better, *shares, told)
+    print_table(table)
+    _print_worst(data, "tip" if "tip" in names else names[0])
+    line("largest residuals: " + "  ".join(f"{n} {figure(v, 2)}" for n, v in largest_residuals(data).items()))
+
+
+def _print_worst(data: xr.Dataset, measure: str) -> None:
+    """Where and how the worst cases of one measure stand."""
+    each = spread(data, measure, WORST)
+    title = f"worst cases by {measure} [{each.unit}]"
+    table = new_table(
+        title, "case", "limiting", "value", "x m", "y m", "yaw deg", "roll deg", "pitch deg", left=2
+    )
+    for worst in each.worst:
+        row = data.sel(case=worst.case)
+        degrees = [float(row[name]) * 57.29577951308232 for name in ("yaw_rad", "roll_rad", "pitch_rad")]
+        shown = [
+            f"{float(row['x_m']):.3f}",
+            f"{float(row['y_m']):.3f}",
+            *(f"{angle:.2f}" for angle in degrees),
+        ]
+        table.add_row(str(worst.case), worst.limiting or "-", figure(worst.value), *shown)
+    print_table(table)
