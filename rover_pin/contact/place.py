@@ -72,20 +72,27 @@ def place(form: int, frame: Frame, cx: float, cy: float, cz: float, ring: float,
 
 
 @formula
-def param_near(
+def distance(
     form: int, frame: Frame, cx: float, cy: float, cz: float, ring: float, x: float, y: float, z: float
-) -> tuple[float, float]:
-    """Parameter of the line's point nearest to (x, y, z) [m], and the distance [m]; closed form.
-
-    With w the point from the centre: a ring's is at the angle of w across the axis, at
-    hypot(w.a, |w x a| - ring); a segment's is w.a within its ends.
-    """
-    ax, ay, az, dx, dy, dz, ex, ey, ez = frame
+) -> float:
+    """Distance [m] of (x, y, z) to the shape's line: hypot(w.a, |w x a| - ring), or to the segment."""
+    ax, ay, az = frame[0], frame[1], frame[2]
     wx, wy, wz = x - cx, y - cy, z - cz
     along = wx * ax + wy * ay + wz * az
-    down, side = wx * dx + wy * dy + wz * dz, wx * ex + wy * ey + wz * ez
-    across = math.sqrt(down * down + side * side)
+    across = math.sqrt(max(wx * wx + wy * wy + wz * wz - along * along, 0.0))
     if form == 1:
-        p = min(max(along, -ring), ring)
-        return p, math.sqrt(across * across + (along - p) ** 2)
-    return math.atan2(side, down), math.sqrt(along * along + (across - ring) ** 2)
+        along -= min(max(along, -ring), ring)
+        return math.sqrt(across * across + along * along)
+    return math.sqrt(along * along + (across - ring) ** 2)
+
+
+@formula
+def param_near(
+    form: int, frame: Frame, cx: float, cy: float, cz: float, ring: float, x: float, y: float, z: float
+) -> float:
+    """Parameter of the line's point nearest to (x, y, z): its angle, or its place along the axis."""
+    ax, ay, az, dx, dy, dz, ex, ey, ez = frame
+    wx, wy, wz = x - cx, y - cy, z - cz
+    if form == 1:
+        return min(max(wx * ax + wy * ay + wz * az, -ring), ring)
+    return math.atan2(wx * ex + wy * ey + wz * ez, wx * dx + wy * dy + wz * dz)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from rover_pin.contact.nearest import Seven
-from rover_pin.contact.place import Frame, param_near
+from rover_pin.contact.place import Frame, distance, param_near
 from rover_pin.contact.plane import put
 from rover_pin.contact.refine import newton, refine
 from rover_pin.numerics import Array, formula
@@ -26,17 +26,18 @@ def probe(
     """
     for _ in range(4):
         far = out[0, 0] + tread
-        bx, by, bp, least = 0.0, 0.0, 0.0, far - 1e-9
+        bx, by, bh, least = 0.0, 0.0, 0.0, far - 1e-9
         for i in range(-2, 3):
             for j in range(-2, 3):
                 x, y = out[0, 1] + 0.5 * spacing * i, out[0, 2] + 0.5 * spacing * j
                 h = surface(kind, table, params, x, y)[0]
-                p, d = param_near(form, frame, cx, cy, cz, ring, x, y, h)
+                d = distance(form, frame, cx, cy, cz, ring, x, y, h)
                 if d < least:
-                    bx, by, bp, least = x, y, p, d
+                    bx, by, bh, least = x, y, h, d
         if least == far - 1e-9:
             break
-        found = refine(kind, table, params, spacing, form, frame, cx, cy, cz, ring, 0.1, bp, bx, by)
+        p = param_near(form, frame, cx, cy, cz, ring, bx, by, bh)
+        found = refine(kind, table, params, spacing, form, frame, cx, cy, cz, ring, 0.1, p, bx, by)
         count = keep(out, count, found, tread, 1e-3 * (ring + tread), window)
         if out[0, 0] + tread >= far:
             break
@@ -68,7 +69,7 @@ def across(
                 if (sx - x) ** 2 + (sy - y) ** 2 < 1e-12:
                     continue
                 h = surface(kind, table, params, sx, sy)[0]
-                p, _ = param_near(form, frame, cx, cy, cz, ring, sx, sy, h)
+                p = param_near(form, frame, cx, cy, cz, ring, sx, sy, h)
                 _, found, good = newton(kind, table, params, form, frame, cx, cy, cz, ring, 0.1, p, sx, sy)
                 if good:
                     count = keep(out, count, found, tread, 1e-3 * (ring + tread), window)

@@ -165,7 +165,7 @@ def refine(
     kind: int, table: Array, params: Array, spacing: float, form: int, frame: Frame, cx: float, cy: float,
     cz: float, ring: float, width: float, p: float, x: float, y: float,
 ) -> Seven:  # fmt: skip
-    """The minimum near a seed: Newton's, unless that is no minimum or farther than the seed, else `nested`'s.
+    """The minimum near a seed: Newton's, or `nested`'s where that is none, is farther or is another's.
 
     Returns:
         W (3), n (3), signed distance.
@@ -174,7 +174,8 @@ def refine(
     px, py, pz, _, _, _, _, _, _ = place(form, frame, cx, cy, cz, ring, p)
     h = surface(kind, table, params, x, y)[0]
     start = math.sqrt((px - x) ** 2 + (py - y) ** 2 + (pz - h) ** 2)
-    if good and (found[6] <= start or pz < h):
+    strayed = (found[0] - x) ** 2 + (found[1] - y) ** 2 > spacing * spacing
+    if good and not strayed and (found[6] <= start or pz < h):
         return found
     _, found = nested(kind, table, params, spacing, form, frame, cx, cy, cz, ring, width, p, x, y)
     return found
