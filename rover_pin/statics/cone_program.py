@@ -28,7 +28,8 @@ class Answer:
         outcome: `solved` only where residuals and duality gap were recomputed and are within ACCEPTED.
         x: (n,) the minimiser.
         value: the objective at x.
-        bound: the dual objective: no feasible point lies below it by more than rounding.
+        bound: the dual objective, less what its own residuals leave in doubt for a point of x's size: no
+            such point that is feasible lies below it.
         cone_multipliers: (c, 3) dual variables of the cones.
     """
 
@@ -92,8 +93,11 @@ class ConeProgram:
             self._check_finite()
             self._solver.update(q=cost)
 
-    def solve(self) -> Answer:
+    def solve(self, accepted: float = ACCEPTED) -> Answer:
         """Solve and check.
+
+        Args:
+            accepted: the largest residual or duality gap that is `solved`, relative to the data's 1.
 
         Raises:
             SolverError: the data are not finite.
@@ -109,7 +113,7 @@ class ConeProgram:
             return self._nothing("infeasible" if self._proves_infeasible(z) else "failed")
         if "DualInfeasible" in status:
             return self._nothing("unbounded" if self._proves_unbounded(x) else "failed")
-        return self._checked(x, z)
+        return self._checked(x, z, accepted)
 
     def _set_up(self) -> None:
         import clarabel
@@ -163,22 +167,24 @@ class ConeProgram:
         )
         return gain > 0 and bool(wrong <= PROVEN * gain)
 
-    def _checked(self, x: Array, z: Array) -> Answer:
+    def _checked(self, x: Array, z: Array, accepted: float) -> Answer:
         equals, linear, cones = self._counts
         slack = self._right - self._left @ x
         curved = self._quadratic @ x
         value = float(self._cost @ x + 0.5 * curved @ x)
         bound = float(-0.5 * curved @ x - self._right @ z)
-        multipliers = z[equals + linear :].reshape(cones, 3)
+        gradient = float(np.max(np.abs(self._cost + curved + self._left.T @ z), initial=0.0))
+        outward = _outside(z[equals:], linear)
         wrong = max(
-            np.max(np.abs(slack[:equals]), initial=0.0),
+            float(np.max(np.abs(slack[:equals]), initial=0.0)),
             _outside(slack[equals:], linear),
-            _outside(z[equals:], linear),
-            np.max(np.abs(self._cost + curved + self._left.T @ z), initial=0.0),
+            outward,
+            gradient,
             (value - bound) / max(1.0, abs(value)),
         )
-        outcome: Outcome = "solved" if wrong <= ACCEPTED * max(1.0, float(np.max(np.abs(x)))) else "failed"
-        return Answer(outcome, x, value, bound, multipliers)
+        outcome: Outcome = "solved" if wrong <= accepted * max(1.0, float(np.max(np.abs(x)))) else "failed"
+        doubt = gradient * float(np.sum(np.abs(x))) + outward * float(np.sum(np.abs(slack[equals:])))
+        return Answer(outcome, x, value, bound - doubt, z[equals + linear :].reshape(cones, 3))
 
 
 def _outside(slack: Array, linear: int) -> float:

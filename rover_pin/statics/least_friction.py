@@ -12,7 +12,10 @@ from rover_pin.statics.cone_program import ConeProgram
 from rover_pin.statics.force_space import ForceSpace
 
 STEP = 1e-8
-"""Half the width of the bracket that is aimed for; the answer is within four of these."""
+"""How far past the root it is probed on either side; the bracket aimed for is at most four of these wide."""
+
+WIDEST = 1e-6
+"""Bracket beyond which the search counts as failed."""
 
 SQUEEZE = 1000.0
 """Normal forces may add up to this many weights: bracing without bound is not counted as standing."""
@@ -61,43 +64,45 @@ def least_friction(space: ForceSpace, base: Array, start: float = 0.0) -> LeastF
         return LeastFriction("infeasible", np.inf, np.inf, nothing)
     search = _Search(space, base)
     floor = -float(np.min(base))
-    lower, upper, best = floor, np.inf, nothing
-    guess = max(start, floor) + STEP
+    lower, upper, best, step = floor, np.inf, nothing, STEP
+    guess = max(start, floor) + step
     for attempt in range(_TRIES):
         probe = search.at(guess)
         if probe is None:
             return LeastFriction(search.outcome, np.inf, lower, nothing)
-        worst, proven, slope = probe.worst, probe.proven, probe.slope
-        if worst <= 0.0:
-            upper, best = min(upper, guess), probe.forces
-        elif proven > 0.0:
+        if probe.worst <= 0.0:
+            if guess < upper:
+                upper, best = guess, probe.forces
+        elif probe.proven > 0.0:
             lower = max(lower, guess)
-        else:  # the root, as near as the solver's digits can tell
-            return LeastFriction("found", guess, guess, probe.forces)
-        if upper - lower <= 4.0 * STEP:
+        else:  # nearer the root than the solver has digits: probe further from it
+            step *= 4.0
+        if upper - lower <= 4.0 * step:
             return LeastFriction("found", upper, lower, best)
         if lower > _HOPELESS:
             return LeastFriction("infeasible", np.inf, lower, nothing)
-        guess = _next(guess, worst, slope, lower, upper, bisect=attempt % 8 == 7)
+        if step > WIDEST:
+            break
+        guess = _next(guess, probe, lower, upper, step, bisect=attempt % 8 == 7)
     return LeastFriction("failed", upper, lower, best)
 
 
-def _next(guess: float, worst: float, slope: float, lower: float, upper: float, bisect: bool) -> float:
-    """Newton's next guess, one STEP past the root it sees on the side that is still open."""
-    root = guess + worst / slope if slope > 1e-12 else np.inf
-    past = -STEP if np.isfinite(upper) and upper - root <= 2.0 * STEP else STEP
-    guess = root + past
+def _next(guess: float, probe: _Probe, lower: float, upper: float, step: float, bisect: bool) -> float:
+    """Newton's next guess, one step past the root it sees on the side that is still open."""
+    root = guess + probe.worst / probe.slope if probe.slope > 1e-12 else np.inf
+    guess = root - step if np.isfinite(upper) and upper - root <= 2.0 * step else root + step
     if not np.isfinite(upper):
-        return float(min(max(guess, lower + STEP), 2.0 * abs(lower) + 2.0))
-    if bisect or not lower < guess < upper:
-        near_floor = guess <= lower and not bisect
-        return float(lower + min(STEP, 0.5 * (upper - lower))) if near_floor else 0.5 * (lower + upper)
-    return float(guess)
+        return float(min(max(guess, lower + step), 2.0 * abs(lower) + 2.0))
+    if bisect:
+        return 0.5 * (lower + upper)
+    if guess <= lower:
+        return lower + min(step, 0.5 * (upper - lower))
+    return float(guess) if guess < upper else 0.5 * (lower + upper)
 
 
 @dataclass(frozen=True)
 class _Probe:
-    """t(e) from above (`worst`, held by `forces`) and from below (`proven`), and its slope's size."""
+    """t(e) from above (`worst`, by `forces`) and from below (`proven`, by the dual), and its slope's size."""
 
     worst: float
     proven: float
@@ -139,12 +144,13 @@ class _Search:
         cones[:, 0] = friction[:, None] * self._map[0 : 3 * k : 3]
         cones[:, 0, -1] = 1.0
         self._program.set_cones(cones)
-        answer = self._program.solve()
+        answer = self._program.solve(accepted=1e-6)
         if answer.outcome != "solved":
             self.outcome = "infeasible" if answer.outcome == "infeasible" else "failed"
             return None
         scaled = self._map @ answer.x
         contacts = scaled[: 3 * k].reshape(k, 3)
-        worst = float(np.max(np.hypot(contacts[:, 1], contacts[:, 2]) - friction * contacts[:, 0]))
+        outside = np.hypot(contacts[:, 1], contacts[:, 2]) - friction * contacts[:, 0]
+        worst = float(np.max(np.concatenate([outside, -scaled[3 * k :]])))
         slope = float(answer.cone_multipliers[:, 0] @ contacts[:, 0])
         return _Probe(worst, answer.bound, slope, scaled / answer.x[-2])

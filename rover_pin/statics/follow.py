@@ -1,0 +1,131 @@
+"""From level ground to the terrain: the stance followed along h0 + s (h - h0), s from 0 to 1."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rover_pin.numerics import Array
+from rover_pin.statics.ground import (
+    NOT_NEGATIVE,
+    Footing,
+    failed,
+    footing_of,
+    support_name,
+    tipped,
+)
+from rover_pin.statics.newton import Landing, land
+from rover_pin.statics.problem import Problem
+from rover_pin.statics.relax import relax
+from rover_pin.statics.stance import Status
+
+if TYPE_CHECKING:
+    from rover_pin.terrain import Terrain
+
+OPEN = -1e-9
+"""m or rad: a gap below this is a penetration, to be resolved by another set of supports."""
+
+JUMP = 0.2
+"""Share of the wheels' span, and rad: a motion larger than this over one least step is not the same branch."""
+
+WINDOW = 0.02
+"""m: other places of a wheel that may come to touch within a step."""
+
+FIRST_STEP = 0.25
+LEAST_STEP = 1.0 / 256.0
+
+
+def straight(problem: Problem, footing: Footing, z: Array, terrain: Terrain) -> Footing | None:
+    """Newton straight to the terrain on the supports that carry on level ground.
+
+    Taken only where those supports still carry, nothing else touches, and the branch did not fold on the way;
+    else None, and the stance is followed.
+    """
+    landing = land(problem, z, terrain, footing.active, footing.loops, reach=JUMP * 2.0, iterations=9)
+    if landing is None or not stands(problem, landing, footing.sign):
+        return None
+    return Footing(landing.state.z, Status.SETTLED, None, "", footing.active, footing.loops, landing.sign)
+
+
+def stands(problem: Problem, landing: Landing, sign: float) -> bool:
+    """Whether a landing is on the branch: no negative load, no penetration, orientation kept."""
+    return bool(
+        landing.sign == sign
+        and np.min(landing.multipliers, initial=0.0) >= NOT_NEGATIVE * problem.weight
+        and np.min(landing.state.slack, initial=0.0) >= OPEN
+    )
+
+
+def follow(
+    problem: Problem, footing: Footing, z: Array, terrain: Terrain, level: float, *, steps: int | None = None
+) -> Footing:
+    """Raise the terrain from its level h0 to what it is, and the rover with it.
+
+    A step that Newton cannot take on the same supports is shortened; at the least step the rover is let go
+    and comes to rest on other supports, tips, or is lost. A far jump without any support letting go is the
+    end of the branch: it tips.
+
+    Args:
+        problem: the rover, at its place.
+        footing: the stance on level ground.
+        z: (n,) its coordinates at height h0.
+        terrain: the terrain.
+        level: h0, m.
+        steps: fixed number of steps instead of adapted ones.
+    """
+    s, step = 0.0, FIRST_STEP if steps is None else 1.0 / steps
+    least = LEAST_STEP if steps is None else step
+    current = Footing(
+        z, footing.status, footing.limiting, footing.reason, footing.active, footing.loops, footing.sign
+    )
+    count = 0
+    while s < 1.0:
+        count += 1
+        if count > 4000:
+            return failed(current.z, Status.NO_CONVERGENCE, None, "the stance could not be followed to the end")
+        target = 1.0 if s + step > 1.0 - 1e-12 else s + step
+        raised = terrain if target == 1.0 else terrain.blended(level, target)
+        landing = land(problem, current.z, raised, current.active, current.loops, reach=JUMP)
+        if landing is not None and stands(problem, landing, current.sign):
+            current = Footing(
+                landing.state.z, Status.SETTLED, None, "", current.active, current.loops, landing.sign
+            )
+            s = target
+            if steps is None:
+                step = min(2.0 * step, FIRST_STEP)
+            continue
+        if step > least:
+            step = max(step / 4.0, least)
+            continue
+        following = _let_go(problem, current, raised, landing)
+        if following.status is not Status.SETTLED:
+            return following
+        current, s = following, target
+    return current
+
+
+def _let_go(problem: Problem, current: Footing, terrain: Terrain, landing: Landing | None) -> Footing:
+    """Supports change, or the branch ends: find out by letting the rover fall."""
+    before = problem.state(current.z, terrain)
+    lost = None
+    if landing is not None and np.min(landing.multipliers, initial=0.0) < NOT_NEGATIVE * problem.weight:
+        lost = support_name(problem, landing.state, int(np.argmin(landing.multipliers)))
+    rest = relax(problem, current.z, terrain, window=WINDOW)
+    found = footing_of(problem, rest, terrain, lost or _most_moved(problem, current.z, rest.state.z))
+    if found.status is not Status.SETTLED:
+        return found
+    jump = float(np.max(np.abs(found.z - before.z) / problem.unit))
+    if jump > JUMP and lost is None:
+        return tipped(problem, found.z, _most_moved(problem, current.z, found.z))
+    return found
+
+
+def _most_moved(problem: Problem, before: Array, after: Array) -> str | None:
+    """The passive joint that moved most, or None where only the base did."""
+    moved = np.abs(after - before) / problem.unit
+    moved[:3] = 0.0
+    if not np.any(moved > 1e-3):
+        return None
+    column = problem.reduction.columns[int(np.argmax(moved))]
+    return problem.rover.dof_names[column]

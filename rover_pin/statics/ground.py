@@ -1,0 +1,194 @@
+"""A rover at rest on level ground: where every settle starts from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rover_pin.numerics import Array
+from rover_pin.statics.loads import STOPPED, Loads, share_loads
+from rover_pin.statics.newton import Landing, independent_rows, land
+from rover_pin.statics.problem import Integers, Problem, State
+from rover_pin.statics.relax import Rest, relax
+from rover_pin.statics.stance import Status
+from rover_pin.statics.start import level_start
+
+if TYPE_CHECKING:
+    from rover_pin.terrain import Terrain
+
+NOT_NEGATIVE = -1e-9
+"""Share of the weight below which a load counts as negative."""
+
+
+@dataclass(frozen=True)
+class Footing:
+    """A pose that stands, or the reason why none was found.
+
+    Attributes:
+        z: (n,) free coordinates.
+        status: `settled` where it stands.
+        limiting: wheel or joint that names the reason.
+        reason: for people.
+        active: supports that carry, as rows of a state with one contact a shape.
+        loops: independent loop rows.
+        sign: of the determinant of supports and loops.
+    """
+
+    z: Array
+    status: Status
+    limiting: str | None
+    reason: str
+    active: Integers
+    loops: Integers
+    sign: float
+
+
+def failed(z: Array, status: Status, limiting: str | None, reason: str) -> Footing:
+    """A footing that does not stand."""
+    nothing = np.zeros(0, dtype=np.int64)
+    return Footing(z, status, limiting, reason, nothing, nothing, 0.0)
+
+
+def settle_on_level(problem: Problem, posture: Mapping[str, float], ground: Terrain) -> Footing:
+    """Lower the level rover onto level ground and let go.
+
+    Raises:
+        MechanismError: a loop that cannot close with the values that are held.
+    """
+    z = level_start(problem, posture, ground)
+    held_up = share_loads(problem, problem.state(z, ground, window=1e-5))
+    rest = relax(problem, z, ground, window=1e-5)
+    footing = footing_of(problem, rest, ground, heaviest_loser(problem, held_up, problem.state(z, ground, 1e-5)))
+    if footing.status is Status.SETTLED:
+        loose = _fell_to_its_stop(problem, z, footing)
+        if loose is not None:
+            reason = f"passive joint {loose} falls to its stop before any wheel beyond it bears"
+            return failed(footing.z, Status.LOOSE, loose, reason)
+    return footing
+
+
+def footing_of(problem: Problem, rest: Rest, terrain: Terrain, lost: str | None) -> Footing:
+    """What the end of a damped motion means; a rest is polished by Newton and its loads checked."""
+    z = rest.state.z
+    if rest.end == "over":
+        return tipped(problem, z, lost)
+    if rest.end == "away":
+        column = problem.reduction.columns[rest.column]
+        joint = problem.rover.dof_names[column]
+        return failed(z, Status.LOOSE, joint, f"passive joint {joint} falls without bound")
+    if rest.end == "lost":
+        return failed(z, Status.NO_CONVERGENCE, None, "no stance was found within the steps allowed")
+    active = carrying(problem, rest)
+    loops = independent_rows(rest.state.closing)
+    landing = polish(problem, rest, terrain, active, loops)
+    if landing is None:
+        return failed(z, Status.NO_CONVERGENCE, None, "the last step did not converge")
+    return Footing(landing.state.z, Status.SETTLED, None, "", active, loops, landing.sign)
+
+
+def polish(
+    problem: Problem, rest: Rest, terrain: Terrain, active: Integers, loops: Integers
+) -> Landing | None:
+    """Newton from a rest; with several contacts a wheel where one contact a wheel is not enough."""
+    landing = land(problem, rest.state.z, terrain, active, loops, reach=0.05)
+    if landing is not None:
+        return landing
+    rows = np.flatnonzero(rest.multipliers > -NOT_NEGATIVE * problem.weight)
+    rows = rows[independent_rows(rest.state.motion[rows])]
+    return land(problem, rest.state.z, terrain, rows, loops, window=1e-3, reach=0.05)
+
+
+def carrying(problem: Problem, rest: Rest) -> Integers:
+    """Supports that carry at a rest, independent ones, as rows of a state with one contact a shape."""
+    state = rest.state
+    contacts = len(state.owners)
+    shapes = len(problem.rover.shapes)
+    rows = np.flatnonzero(rest.multipliers > -NOT_NEGATIVE * problem.weight)
+    seen: dict[int, int] = {}
+    for row in rows:
+        plain = int(state.owners[row]) if row < contacts else int(row) - contacts + shapes
+        seen.setdefault(plain, int(row))
+    chosen = list(seen.values())
+    loops = independent_rows(state.closing)
+    together = np.vstack([state.closing[loops], state.motion[chosen]])
+    kept = independent_rows(together)
+    # Loops first: a support that loops already imply is the one to leave out.
+    plain = np.array(list(seen), dtype=np.int64)
+    if len(kept) == len(together):
+        return np.sort(plain)
+    return np.sort(plain[_greedy(state.closing[loops], state.motion[chosen])])
+
+
+def _greedy(base: Array, rows: Array) -> Integers:
+    """Indices of rows that, taken in order, each add to the rank of `base`."""
+    kept: list[int] = []
+    current = base
+    rank = int(np.linalg.matrix_rank(current)) if current.size else 0
+    for i, row in enumerate(rows):
+        extended = np.vstack([current, row])
+        grown = int(np.linalg.matrix_rank(extended, tol=1e-9))
+        if grown > rank:
+            kept.append(i)
+            current, rank = extended, grown
+    return np.array(kept, dtype=np.int64)
+
+
+def heaviest_loser(problem: Problem, loads: Loads, state: State) -> str | None:
+    """The wheel or stop whose load would be the most negative if every support held it down."""
+    touching = loads.touching
+    if not len(touching):
+        return None
+    sides = np.vstack([state.force[touching], state.closing]).T
+    weigh = problem.unit
+    found = np.linalg.lstsq(sides * weigh[:, None], state.load * weigh, rcond=1e-10)[0][: len(touching)]
+    worst = int(np.argmin(found))
+    return support_name(problem, state, int(touching[worst])) if found[worst] < 0.0 else None
+
+
+def support_name(problem: Problem, state: State, row: int) -> str:
+    """Name of the wheel, joint or element behind a one-sided row."""
+    contacts = len(state.owners)
+    if row < contacts:
+        return str(problem.rover.shapes[int(state.owners[row])].name)
+    row -= contacts
+    if row < len(problem.stop_joints):
+        return problem.stop_joints[row]
+    return problem.one_sided[row - len(problem.stop_joints)].name
+
+
+def tipped(problem: Problem, z: Array, lost: str | None) -> Footing:
+    """It falls over; `lost` is the wheel or joint that lets go."""
+    wheels = {shape.name for shape in problem.rover.shapes}
+    if lost is None:
+        reason = "it falls over: tilt above 80 deg"
+    elif lost in wheels:
+        reason = f"the load of {lost} would be negative and nothing catches it"
+    else:
+        reason = f"joint {lost} gives way and nothing catches it"
+    return failed(z, Status.TIPS, lost, reason)
+
+
+def _fell_to_its_stop(problem: Problem, start: Array, footing: Footing) -> str | None:
+    """A joint that left its posture for a stop with no load on any wheel beyond it, and no element on it."""
+    rover = problem.rover
+    shapes = len(rover.shapes)
+    bearing = {int(rover.shapes[row].joint) for row in footing.active if row < shapes}
+    q0 = problem.reduction.expand(start)
+    q1 = problem.reduction.expand(footing.z)
+    bound = {joint for coupling in rover.couplings for joint in coupling.joints}
+    bound |= {spring.joint for spring in rover.springs if hasattr(spring, "joint")}
+    for row in footing.active:
+        place = int(row) - shapes
+        if not 0 <= place < len(problem.stop_joints):
+            continue
+        joint = problem.stop_joints[place]
+        column = rover.column[joint]
+        if joint in bound or rover.loops or abs(q1[column] - q0[column]) <= STOPPED:
+            continue
+        below = set(rover.model.subtrees[rover.model.getJointId(joint)])
+        if not bearing & below:
+            return joint
+    return None

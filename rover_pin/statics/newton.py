@@ -1,0 +1,147 @@
+"""Newton on a set of supports taken as touching: the fast way to a stance, and the last step of every way."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.linalg import qr
+
+from rover_pin.numerics import Array
+from rover_pin.statics.problem import Integers, Problem, State
+
+if TYPE_CHECKING:
+    from rover_pin.terrain import Terrain
+
+ITERATIONS = 25
+STEP = 1e-10
+
+
+@dataclass(frozen=True)
+class Landing:
+    """Where Newton came to rest.
+
+    Attributes:
+        state: the equations there.
+        active: rows of the state taken as touching.
+        multipliers: (m,) N of all rows, zero where not active.
+        pulls: (k,) multipliers of the loops, zero for redundant rows.
+        sign: sign of the determinant of the bordered system, which changes where a branch folds.
+    """
+
+    state: State
+    active: Integers
+    multipliers: Array
+    pulls: Array
+    sign: float
+
+
+def independent_rows(rows: Array, tolerance: float = 1e-9) -> Integers:
+    """Indices of a largest set of independent rows, by pivoted QR."""
+    if rows.shape[0] == 0:
+        return np.zeros(0, dtype=np.int64)
+    triangle, order = qr(rows.T, mode="r", pivoting=True)
+    diagonal = np.abs(np.diag(triangle))
+    rank = int(np.sum(diagonal > tolerance * max(diagonal[0], 1e-300))) if diagonal[0] > 0.0 else 0
+    return np.sort(np.asarray(order[:rank], dtype=np.int64))
+
+
+def land(
+    problem: Problem,
+    z: Array,
+    terrain: Terrain,
+    active: Integers,
+    loops: Integers,
+    *,
+    window: float = 0.0,
+    reach: float = 1.0,
+    iterations: int = ITERATIONS,
+) -> Landing | None:
+    """Newton's method on equilibrium, the active gaps and the loops.
+
+    Where the active supports and loops alone determine the pose, the stiffness does not matter and is not
+    computed. Returns None where it does not converge, or moves further than `reach`.
+
+    Args:
+        problem: the rover.
+        z: (n,) start.
+        terrain: what it stands on.
+        active: rows of the state to hold at zero.
+        loops: independent loop rows.
+        window: of the states.
+        reach: largest sum of steps, as a share of the wheels' span and in rad.
+        iterations: most steps.
+    """
+    n = problem.n
+    held = len(active) + len(loops)
+    if held > n:
+        return None
+    determinate = held == n
+    start = z
+    multipliers = np.zeros(len(active))
+    pulls = np.zeros(len(loops))
+    size = -1
+    for _ in range(iterations):
+        state = problem.state(z, terrain, window)
+        if size >= 0 and len(state.slack) != size:
+            return None
+        size = len(state.slack)
+        gaps = np.concatenate([state.slack[active], state.closure[loops]])
+        rows = np.vstack([state.motion[active], state.closing[loops]])
+        sides = np.vstack([state.force[active], state.closing[loops]])
+        try:
+            if determinate:
+                step = np.linalg.solve(rows, -gaps)
+                forces = np.linalg.solve(sides.T, state.load)
+            else:
+                full = np.zeros(size)
+                full[active] = multipliers
+                pulling = np.zeros(len(state.closure))
+                pulling[loops] = pulls
+                stiffness = problem.stiffness(z, terrain, full, pulling, window)
+                matrix = np.block([[stiffness, -sides.T], [rows, np.zeros((held, held))]])
+                solution = _solve(matrix, np.concatenate([-state.load, -gaps]), problem)
+                step, forces = solution[:n], solution[n:]
+        except np.linalg.LinAlgError:
+            return None
+        if not (np.all(np.isfinite(step)) and np.all(np.isfinite(forces))):
+            return None
+        multipliers, pulls = forces[: len(active)], forces[len(active) :]
+        moved = np.max(np.abs(z + step - start) / problem.unit)
+        if moved > reach:
+            return None
+        largest = np.max(np.abs(step) / problem.unit)
+        if largest < STEP:
+            return _landing(state, active, multipliers, loops, pulls, rows, determinate)
+        z = z + step
+    return None
+
+
+def _landing(
+    state: State,
+    active: Integers,
+    multipliers: Array,
+    loops: Integers,
+    pulls: Array,
+    rows: Array,
+    determinate: bool,
+) -> Landing:
+    """The result; the sign is that of the rows' determinant where they are square."""
+    full = np.zeros(len(state.slack))
+    full[active] = multipliers
+    pulling = np.zeros(len(state.closure))
+    pulling[loops] = pulls
+    sign = float(np.linalg.slogdet(rows)[0]) if determinate else 0.0
+    return Landing(state, active, full, pulling, sign)
+
+
+def _solve(matrix: Array, right: Array, problem: Problem) -> Array:
+    """Scaled least-squares solve: directions that nothing determines do not move."""
+    n = problem.n
+    scale = np.concatenate([problem.unit, np.full(len(right) - n, problem.weight)])
+    weigh = np.concatenate([problem.unit / (problem.weight * problem.span), np.ones(len(right) - n) / problem.span])
+    scaled = matrix * scale[None, :] * weigh[:, None]
+    solution = np.linalg.lstsq(scaled, right * weigh, rcond=1e-11)[0]
+    answer: Array = solution * scale
+    return answer

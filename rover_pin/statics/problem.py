@@ -1,0 +1,268 @@
+"""The equations of standing: loads, gaps, stops, springs and loops of one rover at free coordinates z."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
+
+from rover_pin.contact.pack import pack
+from rover_pin.contact.rows import contact_rows
+from rover_pin.contact.search import find_all
+from rover_pin.mechanism import Elastic, Kinematics, OneSided, Reduction
+from rover_pin.numerics import Array
+
+if TYPE_CHECKING:
+    from rover_pin.rover import Rover
+    from rover_pin.terrain import Terrain
+
+Integers = NDArray[np.int64]
+
+CONTACTS_PER_SHAPE = 8
+
+
+@dataclass(frozen=True)
+class State:
+    """Everything the equations need at one z; m one-sided rows: contacts, then stops, then elements.
+
+    Equilibrium is load = force' N + loops' multipliers; standing asks slack >= 0, N >= 0, slack . N = 0.
+
+    Attributes:
+        z: (n,) free coordinates.
+        q: (nv,) configuration.
+        at: kinematics at q; valid until the next state of the same problem is made.
+        load: (n,) gravity minus springs, as generalised forces the supports must give.
+        slack: (m,) gaps and distances to stops [m or rad].
+        motion: (m, n) gradient of the slack.
+        force: (m, n) generalised force of a unit multiplier: for contacts the world-vertical row, which is
+            not the gap's gradient where the ground is inclined; for the rest the gradient.
+        owners: (c,) shape of each of the first c rows.
+        contacts: (c, 7) gap, point, normal of each.
+        closure: (k,) loops' residual.
+        closing: (k, n) its Jacobian.
+    """
+
+    z: Array
+    q: Array
+    at: Kinematics
+    load: Array
+    slack: Array
+    motion: Array
+    force: Array
+    owners: Integers
+    contacts: Array
+    closure: Array
+    closing: Array
+
+
+class Problem:
+    """One rover with what is held, under a gravity; terrains and places are given case by case.
+
+    Args:
+        rover: the rover (with its payload).
+        reduction: free coordinates.
+        gravity: m/s2.
+    """
+
+    def __init__(self, rover: Rover, reduction: Reduction, gravity: float) -> None:
+        self.rover = rover
+        self.reduction = reduction
+        self.gravity = gravity
+        self.model: Any = rover.model
+        self.data: Any = rover.model.createData()
+        self.n = reduction.basis.shape[1]
+        self.weight = rover.mass * gravity
+        self.span = max(rover.wheel_span, 1e-3)
+        self.shapes = pack(rover.shapes)
+        self.carriers, index = np.unique(self.shapes.joints, return_inverse=True)
+        self._carrier_of: Integers = index.astype(np.int64).reshape(-1)
+        self._carrier_list = [int(joint) for joint in self.carriers]
+        self._found = np.empty((len(rover.shapes), CONTACTS_PER_SHAPE, 7))
+        self._counts = np.zeros(len(rover.shapes), dtype=np.int64)
+        self.elastics: list[Elastic] = list(rover.springs)
+        self.one_sided: list[OneSided] = [e for e in (*rover.springs, *rover.tracks) if hasattr(e, "slack")]
+        self._index_stops()
+        joint_types = [self.model.joints[i].shortname() for i in range(1, self.model.njoints)]
+        sliding = np.array([False, False, True, False, False, False] + [t.startswith("JointModelP") for t in joint_types[1:]])
+        self.lengths: NDArray[np.bool_] = sliding[list(reduction.columns)]
+
+    def _index_stops(self) -> None:
+        """Limits of joints that move: rows s (limit - q) >= 0."""
+        basis = self.reduction.basis
+        stops = []
+        for joint in self.rover.joints:
+            column = self.rover.column[joint]
+            if not np.any(basis[column]):
+                continue
+            if np.isfinite(self.rover.lower[column]):
+                stops.append((column, -1.0, float(self.rover.lower[column]), joint))
+            if np.isfinite(self.rover.upper[column]):
+                stops.append((column, 1.0, float(self.rover.upper[column]), joint))
+        self.stop_joints = [stop[3] for stop in stops]
+        self._stop_columns = np.array([stop[0] for stop in stops], dtype=np.int64)
+        self._stop_signs = np.array([stop[1] for stop in stops])
+        self._stop_limits = np.array([stop[2] for stop in stops])
+        self._stop_rows = -self._stop_signs[:, None] * basis[self._stop_columns].reshape(len(stops), self.n)
+
+    def stop_sign(self, row: int) -> float:
+        """1 for an upper limit, -1 for a lower one."""
+        return float(self._stop_signs[row])
+
+    @property
+    def size_of_closure(self) -> int:
+        """Number of loop rows."""
+        return sum(loop.size for loop in self.rover.loops)
+
+    @cached_property
+    def unit(self) -> Array:
+        """(n,) size of each coordinate's motion: the wheels' span for lengths, 1 for angles."""
+        return np.where(self.lengths, self.span, 1.0)
+
+    def moved(self, x: float, y: float, yaw: float) -> Problem:
+        """The same problem with the base held elsewhere; shares everything that does not depend on it."""
+        twin = object.__new__(Problem)
+        twin.__dict__.update(self.__dict__)
+        offset = self.reduction.offset.copy()
+        offset[0], offset[1], offset[3] = x, y, yaw
+        twin.reduction = Reduction(self.reduction.basis, offset, self.reduction.columns)
+        return twin
+
+    def locate(self, z: Array) -> Kinematics:
+        """Kinematics at z."""
+        return Kinematics(self.model, self.data, self.reduction.expand(z))
+
+    def search(self, at: Kinematics, terrain: Terrain, window: float) -> tuple[Integers, Array]:
+        """Contacts of every shape: owners (c,) and rows (c, 7); the least of each shape first in its group."""
+        shapes = self.shapes
+        rotations = np.array([at.rotation(joint) for joint in self._carrier_list])[self._carrier_of]
+        origins = np.array([at.origin(joint) for joint in self._carrier_list])[self._carrier_of]
+        centers = np.einsum("sij,sj->si", rotations, shapes.centers) + origins
+        axes = np.einsum("sij,sj->si", rotations, shapes.axes)
+        found, counts = self._found, self._counts
+        find_all(
+            terrain.kind, terrain.table, terrain.params, terrain.spacing,
+            shapes.forms, centers, axes, shapes.rings, shapes.treads, window, found, counts,
+        )  # fmt: skip
+        if window == 0.0:
+            return np.arange(len(counts)), found[:, 0].copy()
+        owners = np.repeat(np.arange(len(counts)), counts)
+        rows = np.concatenate([found[i, : counts[i]] for i in range(len(counts))])
+        return owners, rows
+
+    def state(self, z: Array, terrain: Terrain, window: float = 0.0) -> State:
+        """The equations at z.
+
+        Args:
+            z: (n,) free coordinates.
+            terrain: what it stands on.
+            window: m; contacts of a shape within this of its least gap are rows too; 0: one row a shape.
+        """
+        at = self.locate(z)
+        basis = self.reduction.basis
+        owners, contacts = self.search(at, terrain, window)
+        jacobians = np.array([at.joint_jacobian(joint) for joint in self._carrier_list])
+        origins = np.array([at.origin(joint) for joint in self._carrier_list])
+        carrier = self._carrier_of[owners]
+        points = contacts[:, 1:4]
+        vertical = np.zeros_like(points)
+        vertical[:, 2] = 1.0
+        motion = contact_rows(jacobians, origins, carrier, points, contacts[:, 4:7], basis)
+        force = contact_rows(jacobians, origins, carrier, points, vertical, basis)
+        slack = contacts[:, 0]
+        if len(self._stop_columns) or self.one_sided:
+            rest = self._other_rows(at)
+            slack = np.concatenate([slack, rest[0]])
+            motion = np.vstack([motion, rest[1]])
+            force = np.vstack([force, rest[1]])
+        closure, closing = self.loops(at)
+        return State(
+            z, at.q, at, self.load(at), slack, motion, force, owners, contacts, closure, closing
+        )  # fmt: skip
+
+    def _other_rows(self, at: Kinematics) -> tuple[Array, Array]:
+        """Slack and gradient of stops and one-sided elements."""
+        slack = self._stop_signs * (self._stop_limits - at.q[self._stop_columns])
+        rows = self._stop_rows
+        if self.one_sided:
+            slack = np.concatenate([slack, [element.slack(at) for element in self.one_sided]])
+            more = [element.slack_gradient(at) @ self.reduction.basis for element in self.one_sided]
+            rows = np.vstack([rows, *more])
+        return slack, rows
+
+    def load(self, at: Kinematics) -> Array:
+        """(n,) what the supports must carry: gravity minus springs."""
+        whole = pin.computeGeneralizedGravity(self.model, self.data, at.q) * (self.gravity / STANDARD)
+        for element in self.elastics:
+            whole = whole - element.force(at)
+        load: Array = whole @ self.reduction.basis
+        return load
+
+    def loops(self, at: Kinematics) -> tuple[Array, Array]:
+        """Residual (k,) and Jacobian (k, n) of all loops."""
+        loops = self.rover.loops
+        if not loops:
+            return np.zeros(0), np.zeros((0, self.n))
+        residual = np.concatenate([loop.residual(at) for loop in loops])
+        jacobian = np.vstack([loop.jacobian(at) for loop in loops]) @ self.reduction.basis
+        return residual, jacobian
+
+    def stiffness(self, z: Array, terrain: Terrain, multipliers: Array, pulls: Array, window: float) -> Array:
+        """(n, n) derivative of load - force' N - closing' multipliers by z, by central differences.
+
+        N and the loops' multipliers are kept; contact points move with z along the terrain.
+
+        Args:
+            z: (n,).
+            terrain: what it stands on.
+            multipliers: (m,) N of the rows of `state(z, terrain, window)`.
+            pulls: (k,) multipliers of the loops.
+            window: as for the state the multipliers belong to.
+        """
+        reference = self.state(z, terrain, window)
+        size = len(reference.owners)
+        matrix = np.zeros((self.n, self.n))
+        for j in range(self.n):
+            step = 1e-6 * self.unit[j]
+            sides = []
+            for sign in (1.0, -1.0):
+                shifted = z.copy()
+                shifted[j] += sign * step
+                state = self.state(shifted, terrain, window)
+                force = _matched(reference, state, size)
+                sides.append(state.load - force.T @ multipliers - state.closing.T @ pulls)
+            matrix[:, j] = (sides[0] - sides[1]) / (2.0 * step)
+        return matrix
+
+    def mass_matrix(self, at: Kinematics) -> Array:
+        """(n, n) inertia on the free coordinates."""
+        whole = pin.crba(self.model, self.data, at.q)
+        whole = np.triu(whole) + np.triu(whole, 1).T
+        basis = self.reduction.basis
+        matrix: Array = basis.T @ whole @ basis
+        return matrix
+
+    def tilt(self, z: Array) -> float:
+        """Angle between the base's z axis and the vertical [rad]."""
+        q = self.reduction.expand(z)
+        return float(np.arccos(np.clip(np.cos(q[4]) * np.cos(q[5]), -1.0, 1.0)))
+
+
+STANDARD = 9.81
+"""Gravity of Pinocchio's models, m/s2; loads scale with what is asked for."""
+
+
+def _matched(reference: State, state: State, size: int) -> Array:
+    """Force rows of `state` in the order of `reference`: each contact by the nearest one of its shape."""
+    if np.array_equal(reference.owners, state.owners):
+        return state.force
+    rows = []
+    for owner, contact in zip(reference.owners, reference.contacts, strict=True):
+        same = np.flatnonzero(state.owners == owner)
+        away = np.linalg.norm(state.contacts[same, 1:4] - contact[1:4], axis=1)
+        rows.append(state.force[same[int(np.argmin(away))]])
+    return np.vstack([np.array(rows).reshape(size, -1), state.force[len(state.owners) :]])
+

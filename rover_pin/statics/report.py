@@ -1,0 +1,229 @@
+"""From a footing to the Stance that users see: contacts, loads, residuals, verdict."""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pinocchio as pin
+
+from rover_pin.mechanism import Kinematics
+from rover_pin.numerics import Array, frozen
+from rover_pin.statics import residuals
+from rover_pin.statics.ground import Footing, failed
+from rover_pin.statics.loads import Loads, share_loads
+from rover_pin.statics.problem import Problem, State
+from rover_pin.statics.relax import relax
+from rover_pin.statics.stance import Contact, Stance, Status
+from rover_pin.statics.verdict import (
+    free_motions,
+    link_in_ground,
+    steadiness,
+    undetermined_joints,
+    wheel_off_map,
+)
+
+if TYPE_CHECKING:
+    from rover_pin.terrain import Terrain
+
+BALANCED = 1e-7
+"""Share of the weight that may stay unbalanced before a pose is no stance."""
+
+
+def report(problem: Problem, footing: Footing, terrain: Terrain, locked: tuple[str, ...]) -> Stance:
+    """The stance of a footing; a pose that fails a check is a status, never a stance."""
+    off = wheel_off_map(problem, problem.locate(footing.z), terrain)
+    if off is not None:
+        footing = failed(footing.z, Status.OFF_MAP, off, f"{off} reaches beyond the map")
+    if footing.status is not Status.SETTLED:
+        return _stance(problem, footing, terrain, locked, None, None)
+    state = problem.state(footing.z, terrain, window=1e-5)
+    loads = share_loads(problem, state)
+    footing, undetermined = _judge(problem, footing, terrain, state, loads)
+    if footing.status is not Status.SETTLED:
+        return _stance(problem, footing, terrain, locked, None, None)
+    return _stance(problem, footing, terrain, locked, state, loads, undetermined)
+
+
+def _judge(
+    problem: Problem, footing: Footing, terrain: Terrain, state: State, loads: Loads
+) -> tuple[Footing, tuple[str, ...]]:
+    """Balance, signs, steadiness and ground clearance of a pose."""
+    z = footing.z
+    if not np.any(loads.touching < len(state.owners)):
+        return failed(z, Status.SLACK, None, "no wheel touches the ground"), ()
+    lightest = float(np.min(loads.multipliers[loads.touching]))
+    if loads.unbalanced > BALANCED or lightest < -1e-8 * problem.weight:
+        return failed(z, Status.NO_CONVERGENCE, None, "the pose found is not in equilibrium"), ()
+    undetermined: tuple[str, ...] = ()
+    motions = free_motions(state, loads, problem)
+    if motions.shape[1]:
+        stiffness = steadiness(problem, state, loads, terrain, motions)
+        undetermined = undetermined_joints(problem, motions, stiffness)
+        values, vectors = np.linalg.eig(stiffness)
+        worst = int(np.argmin(values.real))
+        if values[worst].real < -1e-7:
+            return _topple(problem, z, terrain, motions @ vectors[:, worst].real), undetermined
+    hit = link_in_ground(problem.rover, problem.locate(z), terrain)
+    if hit is not None:
+        return failed(z, Status.GROUNDED, hit[0], f"{hit[0]} is {hit[1]:.3g} m in the ground"), undetermined
+    return footing, undetermined
+
+
+def _topple(problem: Problem, z: Array, terrain: Terrain, direction: Array) -> Footing:
+    """An equilibrium that does not stay: it leaves along `direction`; name what gives way."""
+    push = 1e-3 * direction / max(float(np.max(np.abs(direction))), 1e-12) * problem.unit
+    names = [problem.rover.dof_names[column] for column in problem.reduction.columns]
+    moved = np.abs(direction)
+    moved[:3] = 0.0
+    joint = names[int(np.argmax(moved))] if np.max(moved, initial=0.0) > 1e-3 else None
+    rest = relax(problem, z + push, terrain, window=1e-3)
+    if rest.end == "away" and joint is not None:
+        return failed(rest.state.z, Status.LOOSE, joint, f"passive joint {joint} falls without bound")
+    reason = f"joint {joint} gives way and nothing catches it" if joint else "it balances and would fall over"
+    return failed(z, Status.TIPS, joint, reason)
+
+
+def _stance(
+    problem: Problem,
+    footing: Footing,
+    terrain: Terrain,
+    locked: tuple[str, ...],
+    state: State | None,
+    loads: Loads | None,
+    undetermined: tuple[str, ...] = (),
+) -> Stance:
+    rover = problem.rover
+    q = frozen(problem.reduction.expand(footing.z))
+    at = problem.locate(footing.z)
+    owners, rows = problem.search(at, terrain, 0.0)
+    gaps = {rover.shapes[int(owner)].name: float(row[0]) for owner, row in zip(owners, rows, strict=True)}
+    contacts: tuple[Contact, ...] = ()
+    extra: dict[str, Any] = {}
+    if state is not None and loads is not None:
+        contacts = _contacts(problem, state, loads)
+        extra = _forces(problem, state, loads, contacts, terrain, gaps)
+        extra["undetermined"] = undetermined
+    return Stance(
+        rover=rover,
+        terrain=terrain,
+        status=footing.status,
+        reason=footing.reason,
+        limiting=footing.limiting,
+        position=frozen(q[:3]),
+        rpy=frozen([q[5], q[4], q[3]]),
+        joints=MappingProxyType({joint: float(q[rover.column[joint]]) for joint in rover.joints}),
+        contacts=contacts,
+        gaps=MappingProxyType(gaps),
+        com=frozen(pin.centerOfMass(problem.model, problem.data, q)),
+        gravity=problem.gravity,
+        configuration=q,
+        locked=locked,
+        **{"loads": MappingProxyType({}), **extra},
+    )
+
+
+def _contacts(problem: Problem, state: State, loads: Loads) -> tuple[Contact, ...]:
+    """The touching places, with their loads and rolling directions."""
+    at = problem.locate(state.z)
+    found = []
+    for row in loads.touching[loads.touching < len(state.owners)]:
+        shape = problem.rover.shapes[int(state.owners[row])]
+        gap, *place = (float(value) for value in state.contacts[row])
+        normal = np.array(place[3:])
+        center = at.point(shape.joint, shape.center)
+        rolling, radius = np.zeros(3), 0.0
+        if hasattr(shape, "drive"):
+            axis = at.rotation(shape.joint) @ shape.axis
+            rolling = np.cross(axis, normal)
+            size = float(np.linalg.norm(rolling))
+            rolling = rolling / size if size > 1e-9 else np.zeros(3)
+            lever = np.array(place[:3]) - center
+            radius = abs(float(np.cross(lever, rolling) @ axis))
+        found.append(
+            Contact(
+                wheel=shape.name,
+                joint=int(shape.joint),
+                point=frozen(place[:3]),
+                normal=frozen(normal),
+                rolling=frozen(rolling),
+                radius=radius,
+                gap=gap,
+                load=float(loads.multipliers[row]),
+                friction=float(shape.friction),
+                free=bool(getattr(shape, "free", False)),
+            )
+        )
+    return tuple(found)
+
+
+def _forces(
+    problem: Problem,
+    state: State,
+    loads: Loads,
+    contacts: tuple[Contact, ...],
+    terrain: Terrain,
+    gaps: dict[str, float],
+) -> dict[str, Any]:
+    """Loads, springs, stops and tensions by name, and the residuals."""
+    rover = problem.rover
+    at = problem.locate(state.z)
+    per_wheel = {shape.name: 0.0 for shape in rover.shapes}
+    for contact in contacts:
+        per_wheel[contact.wheel] += contact.load
+    first = len(state.owners)
+    ends = first + len(problem.stop_joints)
+    stops = {problem.stop_joints[row - first]: float(n) for row, n in _carried(loads, first, ends)}
+    tensions = {track.name: 0.0 for track in rover.tracks}
+    for row, n in _carried(loads, ends, len(state.slack)):
+        name = problem.one_sided[row - ends].name
+        (tensions if name in tensions else stops)[name] = float(n)
+    return {
+        "loads": MappingProxyType(per_wheel),
+        "springs": MappingProxyType({spring.name: spring.effort(at) for spring in rover.springs}),
+        "stops": MappingProxyType(stops),
+        "tensions": MappingProxyType(tensions),
+        "redundant": loads.redundant,
+        "residuals": MappingProxyType(_residuals(problem, state, loads, contacts, terrain, gaps)),
+    }
+
+
+def _carried(loads: Loads, low: int, high: int) -> list[tuple[int, float]]:
+    rows = loads.touching[(loads.touching >= low) & (loads.touching < high)]
+    return [(int(row), float(loads.multipliers[row])) for row in rows if loads.multipliers[row] > 0.0]
+
+
+def _residuals(
+    problem: Problem,
+    state: State,
+    loads: Loads,
+    contacts: tuple[Contact, ...],
+    terrain: Terrain,
+    gaps: dict[str, float],
+) -> dict[str, float]:
+    """What `residuals` finds at this pose with these loads."""
+    rover = problem.rover
+    model = problem.model
+    at = Kinematics(model, model.createData(), state.q)
+    internal = np.zeros(model.nv)
+    row = 0
+    for loop in rover.loops:
+        internal += loop.jacobian(at).T @ loads.pulls[row : row + loop.size]
+        row += loop.size
+    first = len(state.owners)
+    for place, joint in enumerate(problem.stop_joints):
+        sign = problem.stop_sign(place)
+        internal[rover.column[joint]] -= sign * loads.multipliers[first + place]
+    for place, element in enumerate(problem.one_sided):
+        force = loads.multipliers[first + len(problem.stop_joints) + place]
+        internal += force * element.slack_gradient(at)
+    weight = problem.weight
+    return {
+        "equilibrium": residuals.equilibrium(
+            rover, state.q, problem.reduction.basis, contacts, internal, problem.gravity
+        ),
+        "gap_m": residuals.gap(rover, state.q, terrain, contacts),
+        "loop_m": residuals.closure(rover, state.q),
+        "complementarity": residuals.complementarity(contacts, gaps, weight),
+    }

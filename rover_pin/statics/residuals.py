@@ -1,0 +1,148 @@
+"""Residuals of a stance, recomputed from the model by other means than the solver's.
+
+Shared with the solver: Pinocchio, and the terrain's surface. Not shared: the contact search (here the distance
+of a point to a circle, in closed form, and a dense look at the ring), the rows (frame Jacobians of the
+wheels' links and the centre of mass), the reduction (all couplings are checked on q itself).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pinocchio as pin
+
+from rover_pin.contact.place import SEGMENT
+from rover_pin.mechanism import Kinematics
+from rover_pin.numerics import Array
+from rover_pin.statics.stance import Contact
+
+if TYPE_CHECKING:
+    from rover_pin.rover import Rover
+    from rover_pin.terrain import Terrain
+
+_TURNS = np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False)
+_COSINES, _SINES = np.cos(_TURNS), np.sin(_TURNS)
+
+
+def equilibrium(
+    rover: Rover,
+    q: Array,
+    free: Array,
+    contacts: Sequence[Contact],
+    internal: Array,
+    gravity: float,
+) -> float:
+    """Largest unbalanced generalised force: forces over weight, moments over weight times the wheels' span.
+
+    Args:
+        rover: the rover.
+        q: (nv,) configuration.
+        free: (nv, n) directions in which it may move.
+        contacts: with their loads.
+        internal: (nv,) generalised force of stops, tracks and loops.
+        gravity: m/s2.
+    """
+    model: Any = rover.model
+    data = model.createData()
+    at = Kinematics(model, data, q)
+    weight = rover.mass * gravity
+    total = -weight * pin.jacobianCenterOfMass(model, data, q)[2] + internal
+    for contact in contacts:
+        local = at.rotation(contact.joint).T @ (contact.point - at.origin(contact.joint))
+        place = pin.SE3(np.eye(3), local)
+        jacobian = pin.getFrameJacobian(
+            model, data, contact.joint, place, pin.LOCAL_WORLD_ALIGNED
+        )
+        total = total + contact.load * jacobian[2]
+    for spring in rover.springs:
+        total = total + spring.force(at)
+    unbalanced = free.T @ total
+    turning = np.abs(free).T @ _is_turning(model) > 0.5
+    scale = np.where(turning, weight * max(rover.wheel_span, 1e-3), weight)
+    return float(np.max(np.abs(unbalanced) / scale, initial=0.0))
+
+
+def gap(rover: Rover, q: Array, terrain: Terrain, contacts: Sequence[Contact]) -> float:
+    """Largest violation of the contact conditions [m].
+
+    Of every contact: its point's height over the surface and its distance to the wheel's skin (distance to
+    the circle minus the tread, in closed form). Of every wheel: how deep 48 points of its skin lie below the
+    surface, each where the tread's ball looks straight at the ground.
+    """
+    at = Kinematics(rover.model, rover.model.createData(), q)
+    worst = 0.0
+    centers = np.array([at.point(shape.joint, shape.center) for shape in rover.shapes])
+    axes = np.array([at.rotation(shape.joint) @ shape.axis for shape in rover.shapes])
+    place = {shape.name: i for i, shape in enumerate(rover.shapes)}
+    for contact in contacts:
+        i = place[contact.wheel]
+        shape = rover.shapes[i]
+        x, y, z = contact.point
+        on_surface = abs(float(terrain.height(x, y)) - z)
+        apart = contact.point - centers[i]
+        line = _to_segment if shape.form == SEGMENT else _to_ring
+        skin = line(apart, axes[i], shape.ring) - shape.tread
+        worst = max(worst, on_surface, abs(skin))
+    for i, shape in enumerate(rover.shapes):
+        ring = centers[i] + _circle(axes[i], shape.ring)
+        if shape.form == SEGMENT:
+            ring = centers[i] + np.linspace(-shape.ring, shape.ring, len(_TURNS))[:, None] * axes[i]
+        slope = terrain.gradient(ring[:, 0], ring[:, 1])
+        skin_points = ring - shape.tread * _normals(slope)
+        slope = terrain.gradient(skin_points[:, 0], skin_points[:, 1])
+        deep = terrain.height(skin_points[:, 0], skin_points[:, 1]) - skin_points[:, 2]
+        worst = max(worst, float(np.max(deep / np.sqrt(1.0 + np.sum(slope**2, axis=-1)))))
+    return worst
+
+
+def closure(rover: Rover, q: Array) -> float:
+    """Largest violation of loops and couplings [m or rad]."""
+    at = Kinematics(rover.model, rover.model.createData(), q)
+    parts = [np.abs(element.residual(at)) for element in (*rover.loops, *rover.couplings)]
+    return float(np.max(np.concatenate(parts))) if parts else 0.0
+
+
+def complementarity(contacts: Sequence[Contact], gaps: Mapping[str, float], weight: float) -> float:
+    """Largest load times gap, over the weight [m], and negative loads over the weight."""
+    products = [abs(contact.load * contact.gap) / weight for contact in contacts]
+    negative = [max(-contact.load, 0.0) / weight for contact in contacts]
+    open_gaps = [max(-gap, 0.0) for gap in gaps.values()]
+    return float(max([0.0, *products, *negative, *open_gaps]))
+
+
+def _is_turning(model: Any) -> Array:
+    """(nv,) 1 where the coordinate is an angle."""
+    kinds = [model.joints[i].shortname() for i in range(2, model.njoints)]
+    return np.array([0, 0, 0, 1, 1, 1, *(0 if kind.startswith("JointModelP") else 1 for kind in kinds)], float)
+
+
+def _normals(slope: Array) -> Array:
+    """(k, 3) unit normals of gradients (k, 2)."""
+    raw = np.column_stack([-slope, np.ones(len(slope))])
+    normals: Array = raw / np.linalg.norm(raw, axis=1, keepdims=True)
+    return normals
+
+
+def _to_ring(away: Array, axis: Array, ring: float) -> float:
+    """Distance of a point to a circle about the origin."""
+    along = float(away @ axis)
+    across = float(np.linalg.norm(away - along * axis))
+    return float(np.hypot(along, across - ring))
+
+
+def _to_segment(away: Array, axis: Array, half: float) -> float:
+    """Distance of a point to a segment about the origin."""
+    along = float(np.clip(away @ axis, -half, half))
+    return float(np.linalg.norm(away - along * axis))
+
+
+def _circle(axis: Array, ring: float) -> Array:
+    """(48, 3) points of a circle about the origin."""
+    helper = np.eye(3)[int(np.argmin(np.abs(axis)))]
+    first = np.cross(axis, helper)
+    first /= np.linalg.norm(first)
+    second = np.cross(axis, first)
+    points: Array = ring * (_COSINES[:, None] * first + _SINES[:, None] * second)
+    return points

@@ -1,0 +1,184 @@
+"""settle: how a rover stands at a place on a terrain."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from rover_pin.errors import InputError, OffMapError, PostureError
+from rover_pin.mechanism.lock import engage
+from rover_pin.statics.follow import follow, straight
+from rover_pin.statics.ground import Footing, failed, settle_on_level
+from rover_pin.statics.held import free_coordinates, held_joints
+from rover_pin.statics.problem import Problem
+from rover_pin.statics.report import report
+from rover_pin.statics.stance import Stance, Status
+from rover_pin.statics.verdict import wheel_off_map
+from rover_pin.terrain import Terrain
+
+if TYPE_CHECKING:
+    from rover_pin.rover import Rover
+
+LEVEL = Terrain.flat()
+
+_grounds: WeakKeyDictionary[Rover, dict[tuple[object, ...], tuple[Problem, Footing]]] = WeakKeyDictionary()
+_KEPT = 64
+
+
+def settle(
+    rover: Rover,
+    terrain: Terrain,
+    *,
+    x: float = 0.0,
+    y: float = 0.0,
+    yaw: float = 0.0,
+    posture: str | Mapping[str, float] | None = None,
+    joints: Mapping[str, float] | None = None,
+    locks: Iterable[str] = (),
+    gravity: float = 9.81,
+) -> Stance:
+    """How `rover` comes to rest when it is lowered at a place of `terrain`.
+
+    Held are the base's x, y, yaw, the actuated joints at the posture, locked joints, and the wheels (braked).
+    Free are z, roll, pitch and every other joint. Every contact force is parallel to gravity; gaps and loads
+    are complementary. Of several stances it is the one that the rover reaches from level ground as the
+    terrain rises from its height under the base, h0 + s (h - h0), s from 0 to 1.
+
+    Args:
+        rover: what stands.
+        terrain: what it stands on.
+        x, y: of the root link's frame [m, world].
+        yaw: of the root link's frame [rad].
+        posture: a name, joint values [rad or m], or `{"clearance": m}`: the belly's clearance on level
+            ground, reached by moving the actuated joints least from home. Default: `home`, else zero.
+        joints: further joint values; a passive joint given here is locked there.
+        locks: passive joints, from the rover's `lockable`, to hold at the posture.
+        gravity: m/s2.
+
+    Returns:
+        The stance; its `status` says whether it is `settled`. Only then it has loads.
+
+    Raises:
+        InputError: what cannot be asked: no wheels, a posture outside limits, held values that contradict a
+            loop or coupling, numbers that are not finite.
+        OffMapError: x, y is not on the map.
+    """
+    _check(rover, terrain, x, y, yaw, gravity)
+    values, locked = _posture(rover, posture, dict(joints or {}), tuple(locks), gravity)
+    problem, footing = on_level(rover, values, locked, gravity)
+    problem = problem.moved(x, y, yaw)
+    level = float(terrain.height(x, y))
+    z = footing.z.copy()
+    z[0] += level
+    if footing.status is not Status.SETTLED:
+        reason = footing.reason + " (already on level ground)"
+        return report(problem, failed(z, footing.status, footing.limiting, reason), terrain, locked)
+    off = wheel_off_map(problem, problem.locate(z), terrain)
+    found = straight(problem, footing, z, terrain)
+    if found is None and off is None:
+        found = follow(problem, footing, z, terrain, level)
+    if found is None:
+        found = failed(z, Status.OFF_MAP, off, f"{off} reaches beyond the map")
+    return report(problem, found, terrain, locked)
+
+
+def on_level(
+    rover: Rover, values: Mapping[str, float], locked: tuple[str, ...], gravity: float
+) -> tuple[Problem, Footing]:
+    """The problem of a posture and its stance on level ground at height 0; kept per rover and posture."""
+    key = (tuple(sorted(values.items())), locked, gravity)
+    kept = _grounds.setdefault(rover, {})
+    if key not in kept:
+        held = held_joints(rover, locked)
+        problem = Problem(rover, free_coordinates(rover, held, values, 0.0, 0.0, 0.0), gravity)
+        footing = settle_on_level(problem, values, LEVEL)
+        if len(kept) >= _KEPT:
+            kept.pop(next(iter(kept)))
+        kept[key] = (problem, footing)
+    return kept[key]
+
+
+def _check(rover: Rover, terrain: Terrain, x: float, y: float, yaw: float, gravity: float) -> None:
+    for name, value in (("x", x), ("y", y), ("yaw", yaw), ("gravity", gravity)):
+        if not math.isfinite(value):
+            raise InputError("must be a finite number", element=name, value=value)
+    if gravity <= 0.0:
+        raise InputError("must be above 0 m/s2", element="gravity", value=gravity)
+    if not rover.shapes:
+        raise InputError(
+            "nothing of this robot touches the ground: it has no wheels and no contacts",
+            file=rover.sidecar_path or rover.source,
+            element="wheels",
+            cure="declare `wheels` (name, frame, radius, width) in a sidecar rover.yaml beside the URDF",
+        )
+    if not bool(terrain.covers(x, y)):
+        xmin, xmax, ymin, ymax = terrain.extent
+        raise OffMapError(
+            "the place is not on the map",
+            element=terrain.label,
+            value=f"{x:g}, {y:g}",
+            cure=f"the map spans x {xmin:g} to {xmax:g} m, y {ymin:g} to {ymax:g} m",
+        )
+    _check_size(rover, terrain)
+
+
+def _check_size(rover: Rover, terrain: Terrain) -> None:
+    xmin, xmax, ymin, ymax = terrain.extent
+    side = min(xmax - xmin, ymax - ymin)
+    if side < rover.wheel_span:
+        raise OffMapError(
+            f"the map is smaller than the rover, whose wheels are {rover.wheel_span:.3g} m apart",
+            element=terrain.label,
+            value=f"{side:.3g} m",
+            cure="give a larger map, or check its spacing",
+        )
+
+
+def _posture(
+    rover: Rover,
+    posture: str | Mapping[str, float] | None,
+    joints: dict[str, float],
+    locks: tuple[str, ...],
+    gravity: float,
+) -> tuple[dict[str, float], tuple[str, ...]]:
+    """Every joint's value, and the passive joints that are locked."""
+    values = {j: float(np.clip(0.0, rover.lower[c], rover.upper[c])) for j, c in _columns(rover).items()}
+    given = rover.resolve_posture(joints)
+    locked = {name for name in given if name not in rover.actuated and name not in _drives(rover)}
+    if isinstance(posture, Mapping) and "clearance" in posture:
+        from rover_pin.statics.clearance_goal import posture_for_clearance
+
+        if len(posture) > 1:
+            raise PostureError(
+                "a clearance goal stands alone",
+                element="posture",
+                value=", ".join(posture),
+                cure="give other joints by `joints`",
+            )
+        base = values | rover.resolve_posture(None) | given
+        named = posture_for_clearance(
+            rover, float(posture["clearance"]), base, tuple(given), _engaged(rover, locks, base, locked), gravity
+        )
+    else:
+        named = rover.resolve_posture(posture)
+    values |= named | given
+    return values, _engaged(rover, locks, values, locked)
+
+
+def _engaged(
+    rover: Rover, locks: tuple[str, ...], values: Mapping[str, float], locked: set[str]
+) -> tuple[str, ...]:
+    engaged = {lock.joint for lock in engage(locks, rover.lockable, values, file=rover.sidecar_path)}
+    return tuple(sorted(engaged | locked))
+
+
+def _columns(rover: Rover) -> dict[str, int]:
+    return {joint: rover.column[joint] for joint in rover.joints}
+
+
+def _drives(rover: Rover) -> set[str]:
+    return {wheel.drive for wheel in rover.wheels if wheel.drive is not None}

@@ -1,0 +1,86 @@
+"""Verdicts on a pose: over the edge of the map, in the ground, unsteady, or undetermined."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.linalg import null_space
+
+from rover_pin.contact.pack import half_extents
+from rover_pin.mechanism import Kinematics
+from rover_pin.numerics import Array
+from rover_pin.statics.loads import Loads
+from rover_pin.statics.problem import Problem, State
+
+if TYPE_CHECKING:
+    from rover_pin.rover import Rover
+    from rover_pin.terrain import Terrain
+
+
+def wheel_off_map(problem: Problem, at: Kinematics, terrain: Terrain) -> str | None:
+    """A wheel with a point that is not over the map, or None."""
+    if not np.any(np.isfinite(terrain.extent)):
+        return None
+    shapes = problem.shapes
+    joints = [int(joint) for joint in shapes.joints]
+    centers = np.array([at.point(joint, c) for joint, c in zip(joints, shapes.centers, strict=True)])
+    axes = np.array([at.rotation(joint) @ a for joint, a in zip(joints, shapes.axes, strict=True)])
+    reach = half_extents(shapes.forms, axes, shapes.rings, shapes.treads)
+    xmin, xmax, ymin, ymax = terrain.extent
+    low, high = centers[:, :2] - reach, centers[:, :2] + reach
+    off = (low[:, 0] < xmin) | (high[:, 0] > xmax) | (low[:, 1] < ymin) | (high[:, 1] > ymax)
+    return str(problem.rover.shapes[int(np.argmax(off))].name) if np.any(off) else None
+
+
+def link_in_ground(rover: Rover, at: Kinematics, terrain: Terrain) -> tuple[str, float] | None:
+    """The deepest belly or collision point in the terrain: its link and its depth [m], or None."""
+    points = (*rover.belly, *rover.hull)
+    if not points:
+        return None
+    places = np.array([at.point(p.joint, p.point) for p in points])
+    radii = np.array([getattr(p, "radius", 0.0) for p in points])
+    above = places[:, 2] - radii - terrain.height(places[:, 0], places[:, 1])
+    deepest = int(np.argmin(above))
+    if above[deepest] >= -1e-9:
+        return None
+    return points[deepest].link, float(-above[deepest])
+
+
+def free_motions(state: State, loads: Loads, problem: Problem) -> Array:
+    """(n, d) motions that keep every carrying support, and every loop, as it is."""
+    carrying = loads.touching[loads.multipliers[loads.touching] > 0.0]
+    rows = np.vstack([state.motion[carrying], state.closing]) * problem.unit
+    if not len(rows):
+        return np.eye(problem.n)
+    basis: Array = null_space(rows, rcond=1e-9)
+    return basis
+
+
+def steadiness(problem: Problem, state: State, loads: Loads, terrain: Terrain, motions: Array) -> Array:
+    """(d, d) stiffness of the stance against its free motions, over weight and span.
+
+    Rows are taken across the supports' forces, so that their multipliers drop out to first order.
+    """
+    matrix = problem.stiffness(state.z, terrain, loads.multipliers, loads.pulls, 1e-5)
+    scaled = matrix * problem.unit[None, :] * problem.unit[:, None] / (problem.weight * problem.span)
+    carrying = loads.touching[loads.multipliers[loads.touching] > 0.0]
+    sides = np.vstack([state.force[carrying], state.closing]) * problem.unit
+    across = null_space(sides, rcond=1e-9) if len(sides) else np.eye(problem.n)
+    if across.shape[1] != motions.shape[1]:
+        across = motions
+    reduced: Array = np.linalg.lstsq(across.T @ motions, across.T @ scaled @ motions, rcond=None)[0]
+    return reduced
+
+
+def undetermined_joints(problem: Problem, motions: Array, stiffness: Array) -> tuple[str, ...]:
+    """Passive joints that move along motions nothing resists."""
+    values, vectors = np.linalg.eig(stiffness)
+    soft = np.abs(values) < 1e-9
+    moving = np.abs(motions @ vectors[:, soft].real) if np.any(soft) else np.zeros((problem.n, 0))
+    names = problem.rover.dof_names
+    return tuple(
+        names[column]
+        for row, column in enumerate(problem.reduction.columns)
+        if column >= 6 and np.any(moving[row] > 1e-6)
+    )
