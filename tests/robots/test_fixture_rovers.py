@@ -81,7 +81,7 @@ def test_turnbuckle_is_the_coupling_on_a_plane(yaw):
 
 
 def test_turnbuckle_departs_from_the_coupling_as_its_geometry_says():
-    """Bar angle to rocker angle: a rod of 0.3 m between the bar's end (lever 0.4) and the rocker's top (0.3)."""
+    """Bar angle to rocker angle: a rod of 0.3 m from the bar (lever 0.4) to the rocker (lever 0.3)."""
     stance = rp.settle(load("turnbuckle"), rp.Terrain.from_function(bumps), x=0.3, y=0.2, yaw=0.8)
     assert stance.settled, stance.reason
     bar = stance.joints["bar"]
