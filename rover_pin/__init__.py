@@ -1,4 +1,4 @@
-"""Rovers with suspensions URDF cannot describe: how they stand, what each wheel carries, how close they are to tipping.
+"""Rovers with suspensions URDF cannot describe: how they stand, what wheels carry, how near they tip.
 
 Names load on first use, so that `import rover_pin` is quick.
 """

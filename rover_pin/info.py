@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 def info(rover: Rover) -> dict[str, Any]:
     """Plain numbers and words, keyed by name; None where there is no limit.
 
-    `rank` is the number of independent equations of couplings and loops at home, `redundancy` how many more are
-    stated, `mobility` the joints' degrees of freedom (base excluded) less the rank.
+    `rank` is the number of independent equations of couplings and loops at home, `redundancy` how many
+    more are stated, `mobility` the joints' degrees of freedom (base excluded) less the rank.
 
     Raises:
         MechanismError: a loop that cannot close.

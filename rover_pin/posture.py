@@ -6,12 +6,11 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from rover_pin.description.stated import refuse_outside
 from rover_pin.errors import PostureError, nearest
 
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
-
-_SLACK = 1e-9  # rad or m that a value may lie outside its limits by rounding
 
 
 def resolve_posture(rover: Rover, posture: str | Mapping[str, float] | None) -> dict[str, float]:
@@ -52,10 +51,5 @@ def _checked(rover: Rover, name: str, value: object) -> float:
     if not math.isfinite(number):
         raise PostureError("not a finite number", element=f"joint {name}", value=value, cure="give rad or m")
     column = rover.column[name]
-    lower, upper = float(rover.lower[column]), float(rover.upper[column])
-    if not lower - _SLACK <= number <= upper + _SLACK:
-        raise PostureError(
-            f"posture outside limits: Joint {name}: {lower:g} <= {number:g} <= {upper:g}",
-            cure="stay within the limits",
-        )
+    refuse_outside(name, number, float(rover.lower[column]), float(rover.upper[column]))
     return number

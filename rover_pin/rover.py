@@ -145,7 +145,7 @@ class Rover:
 
     @cached_property
     def wheel_span(self) -> float:
-        """The largest distance between two wheels or feet at home, m; a lone one's diameter, 1 without any."""
+        """The largest distance between two wheels or feet at home, m; a lone one's diameter, else 1."""
         data = self.model.createData()
         pin.forwardKinematics(self.model, data, np.array(self.neutral))
         centers = [data.oMi[s.joint].act(np.array(s.center)) for s in self.shapes]

@@ -84,7 +84,7 @@ def _ros2_control(tree: Tree) -> list[str]:
 
 
 def _transmissions(tree: Tree) -> list[str]:
-    """Joints of `<transmission>`: written as an element `<joint name="...">` or, in old files, as its text."""
+    """Joints of `<transmission>`: named by an attribute or, in old files, by the text."""
     names = []
     for joint in tree.robot.iterfind("transmission/joint"):
         names.append(str(joint.get("name") or (joint.text or "").strip()))

@@ -83,7 +83,7 @@ def _shown(spec: CouplingSpec) -> str:
 
 
 def _refuse_circles(specs: Sequence[CouplingSpec], file: object) -> None:
-    """Walk the couplings of two joints: each says b = ratio a + shift; going round must come back to a = a."""
+    """Walk the couplings of two joints: each says b = ratio a + shift; round a circle, a must be a again."""
     edges: dict[str, list[tuple[str, float, float, str]]] = {}
     for spec in specs:
         if len(spec.joints) == 2:

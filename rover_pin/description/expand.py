@@ -81,15 +81,14 @@ def expand(
 def _run(
     path: Path, values: Mapping[str, float], packages: Packages, notes: Notes, skip: bool
 ) -> tuple[str, set[str]]:
-    import xacro
-    import xacrodoc
+    from xacrodoc import xacrodoc as engine
 
     arguments = _Arguments({name: repr(value) for name, value in values.items()})
     said = io.StringIO()
     try:
         with _around_xacro(packages, notes, skip), contextlib.redirect_stderr(said):
-            xacro.init_stacks(str(path))
-            document = xacrodoc.XacroDoc.from_file(
+            engine.xacro.init_stacks(str(path))
+            document = engine.XacroDoc.from_file(
                 str(path), walk_up=False, subargs=arguments, resolve_packages=False
             )
             expanded = str(document.dom.toxml())
@@ -107,7 +106,9 @@ def _cure(message: str) -> str:
     missing = re.search(r"package://([^/\s]+)", message)
     if missing:
         name = missing.group(1)
-        return f"say where it is: packages={{'{name}': folder}} or --package {name}=FOLDER, or skip missing includes"
+        return (
+            f"give its folder: packages={{'{name}': ...}} or --package {name}=..., or skip missing includes"
+        )
     if "No such file" in message:
         return "put the file there, or skip missing includes"
     if "unknown macro" in message:
@@ -124,9 +125,9 @@ def _around_xacro(packages: Packages, notes: Notes, skip: bool) -> Iterator[None
     An unknown package becomes the path `package://name`, so that it fails only where a file of it is needed
     (an include), not where it is merely named (a mesh).
     """
-    import xacro
-    import xacrodoc  # noqa: F401  (it puts its own finder in place when imported, so it goes first)
-    from xacro import substitution_args
+    from xacrodoc import xacrodoc as engine
+
+    xacro, substitution_args = engine.xacro, engine.substitution_args
 
     def find(name: str) -> str:
         folder = packages.find(name)

@@ -114,7 +114,8 @@ def read_geometry(
         points.extend(_hull_points(shape))
     notes.many(
         list(dict.fromkeys(meshed)),
-        "link {name}: a collision mesh is not tested against the ground; use boxes, cylinders, spheres or `belly`",
+        "link {name}: its collision mesh is not tested against the ground; "
+        "use boxes, cylinders, spheres or `belly`",
         "collision meshes of {n} links are not tested against the ground ({names}); "
         "use boxes, cylinders, spheres or `belly`",
     )
@@ -181,7 +182,7 @@ def _colour(material: Any, colours: dict[str, Any]) -> tuple[float, float, float
 
 
 def _hull_points(shape: _Shape) -> list[BodyPoint]:
-    """Points no further apart than `SPACING` along the edges of a box and the rims of a cylinder; a ball as such."""
+    """Points of a shape no further apart than `SPACING`; a ball as such."""
     if shape.kind == "mesh":
         return []
     if shape.kind == "sphere":

@@ -11,6 +11,19 @@ from rover_pin.description.tree import Element, Tree
 NO_LIMIT = 1e10  # rad, m, N or N m: such a number was written to mean that there is none
 LOCK = 1e-6  # rad or m between the limits: such a joint does not move
 
+_UNBOUNDED = (
+    "joint {name}: no limits stated, taken as unbounded",
+    "{n} joints without stated limits, taken as unbounded ({names})",
+)
+_IGNORED = (
+    "joint {name}: limits of a continuous joint ignored",
+    "limits of {n} continuous joints ignored ({names})",
+)
+_WIDE = (
+    "joint {name}: its limits are so wide that they count as none",
+    "limits of {n} joints are so wide that they count as none ({names})",
+)
+
 
 @dataclass(frozen=True)
 class Limits:
@@ -18,8 +31,8 @@ class Limits:
 
     Attributes:
         lower, upper: rad or m.
-        effort: N m or N.
-        velocity: rad/s or m/s.
+        effort: N m or N; a stated 0 is a placeholder and counts as none.
+        velocity: rad/s or m/s; likewise.
     """
 
     lower: float = -math.inf
@@ -46,33 +59,31 @@ def read_limits(tree: Tree, name: str, joint: Element, notes: Notes) -> Limits:
     continuous = joint.get("type") == "continuous"
     if element is None:
         if not continuous:
-            notes.add(f"joint {name}: no limits stated, taken as unbounded")
+            notes.each(name, *_UNBOUNDED)
         return Limits()
-    effort, velocity = (_strength(tree, name, element, key, notes) for key in ("effort", "velocity"))
+    effort, velocity = (_strength(tree, name, element, key) for key in ("effort", "velocity"))
     if continuous:
         if element.get("lower") is not None or element.get("upper") is not None:
-            notes.add(f"joint {name}: limits of a continuous joint ignored")
+            notes.each(name, *_IGNORED)
         return Limits(effort=effort, velocity=velocity)
     if element.get("lower") is None and element.get("upper") is None:
-        notes.add(f"joint {name}: no limits stated, taken as unbounded")
+        notes.each(name, *_UNBOUNDED)
         return Limits(effort=effort, velocity=velocity)
     lower, upper = float(element.get("lower", 0.0)), float(element.get("upper", 0.0))
     if lower > upper:
         raise tree.error("lower limit above the upper", f"joint {name}", f"{lower} > {upper}", "swap them")
     if lower <= -NO_LIMIT or upper >= NO_LIMIT:
-        notes.add(f"joint {name}: limits {lower:g}, {upper:g} are so wide that they count as none")
+        notes.each(name, *_WIDE)
     return Limits(
         -math.inf if lower <= -NO_LIMIT else lower, math.inf if upper >= NO_LIMIT else upper, effort, velocity
     )
 
 
-def _strength(tree: Tree, name: str, element: Element, key: str, notes: Notes) -> float:
+def _strength(tree: Tree, name: str, element: Element, key: str) -> float:
     text = element.get(key)
     if text is None:
         return math.inf
     value = float(text)
     if value < 0:
         raise tree.error(f"negative {key} limit", f"joint {name}", text, "give its size")
-    if value == 0.0:
-        notes.add(f"joint {name}: {key} limit 0 taken as not stated")
     return math.inf if value == 0.0 or value >= NO_LIMIT else value

@@ -28,13 +28,18 @@ def read_mimics(tree: Tree, notes: Notes) -> list[Mimic]:
     """All mimics of moving joints, once each; `<mimic>` tags and those under `<ros2_control>`.
 
     Raises:
-        DescriptionError: a joint that is not there or does not move, two different mimics of one joint, or a circle.
+        DescriptionError: a joint that is not there or does not move, two different mimics of one joint,
+            or a circle.
     """
     found: dict[str, Mimic] = {}
     for mimic in _stated(tree):
         where = f"joint {mimic.joint}"
         if tree.joints[mimic.joint].get("type") not in MOVING:
-            notes.add(f"{where}: <mimic> on a fixed joint dropped")
+            notes.each(
+                mimic.joint,
+                "joint {name}: <mimic> on a fixed joint dropped",
+                "<mimic> on {n} fixed joints dropped ({names})",
+            )
             continue
         if mimic.of not in tree.joints:
             raise tree.error(

@@ -17,8 +17,8 @@ FIRST_JOINT = 2  # Pinocchio's id of the first moving joint: 0 is the universe, 
 def build_model(urdf: str, name: str) -> pin.Model:
     """The model of a sanitised URDF text.
 
-    q = [x, y, z, yaw, pitch, roll, joints...] with R = Rz(yaw) Ry(pitch) Rx(roll) of the root link, nq == nv and
-    v = dq/dt. A free-flyer's base is used always: a fixed one would lose the root link's mass.
+    q = [x, y, z, yaw, pitch, roll, joints...] with R = Rz(yaw) Ry(pitch) Rx(roll) of the root link,
+    nq == nv and v = dq/dt. A free-flyer's base is used always: a fixed one would lose the root link's mass.
     """
     base = pin.JointModelComposite()
     base.addJoint(pin.JointModelTranslation())

@@ -54,9 +54,9 @@ class Packages:
         return None
 
     def resolve(self, address: str) -> Path | None:
-        """The file behind `package://p/x`, `file://x`, or a path relative to the file; None if it is not there."""
+        """The file behind `package://p/x`, `file://x` or a path relative to the description, or None."""
         if address.startswith("package://"):
-            name, _, rest = address.removeprefix("package://").partition("/")
+            name, _, rest = address.removeprefix("package://").lstrip("/").partition("/")
             folder = self.find(name)
             path = None if folder is None else folder / rest
         else:

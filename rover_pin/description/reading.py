@@ -16,9 +16,7 @@ M = TypeVar("M", bound=BaseModel)
 Path = tuple[str | int, ...]
 
 
-def parse_yaml(
-    text: str, file: object, error: type[SidecarError] = SidecarError
-) -> tuple[dict[str, Any], yaml.Node]:
+def parse_yaml(text: str, file: object) -> tuple[dict[str, Any], yaml.Node]:
     """The mapping a YAML text holds, and its node tree for line numbers. Read safely: no tags run code.
 
     Raises:
@@ -31,32 +29,32 @@ def parse_yaml(
         mark = getattr(problem, "problem_mark", None)
         place = f"{file}:{mark.line + 1}" if mark is not None else file
         why = getattr(problem, "problem", None) or str(problem)
-        raise error(
+        raise SidecarError(
             f"not YAML: {why}", file=place, cure="check indentation, colons and brackets"
         ) from problem
     if not isinstance(node, yaml.MappingNode) or not isinstance(data, dict):
-        raise error("not a mapping of keys to values", file=file, cure="start with `schema: 1`")
-    _refuse_twice(node, file, (), error)
+        raise SidecarError("not a mapping of keys to values", file=file, cure="start with `schema: 1`")
+    _refuse_twice(node, file, ())
     return data, node
 
 
-def _refuse_twice(node: yaml.Node, file: object, path: Path, error: type[SidecarError]) -> None:
+def _refuse_twice(node: yaml.Node, file: object, path: Path) -> None:
     if isinstance(node, yaml.MappingNode):
         seen: dict[str, int] = {}
         for key, value in node.value:
             line = key.start_mark.line + 1
             if key.value in seen:
-                raise error(
+                raise SidecarError(
                     f"stated twice, first in line {seen[key.value]}",
                     file=f"{file}:{line}",
                     element=dotted((*path, key.value)),
                     cure="keep one",
                 )
             seen[key.value] = line
-            _refuse_twice(value, file, (*path, key.value), error)
+            _refuse_twice(value, file, (*path, key.value))
     elif isinstance(node, yaml.SequenceNode):
         for i, value in enumerate(node.value):
-            _refuse_twice(value, file, (*path, i), error)
+            _refuse_twice(value, file, (*path, i))
 
 
 def validated(
@@ -64,19 +62,18 @@ def validated(
     data: dict[str, Any],
     node: yaml.Node | None,
     file: object,
-    error: type[SidecarError] = SidecarError,
 ) -> M:
     """`data` as `model`; the first complaint as one of our errors.
 
     Raises:
-        SidecarError: an unknown key (with the nearest known one), a missing key, or a value of the wrong kind.
+        SidecarError: an unknown key (with the nearest known one), a missing key, or an unfit value.
     """
     try:
         return model.model_validate(data)
     except ValidationError as problem:
         first = _worst(problem)
         path = _in_data(first["loc"], data, missing=first["type"] == "missing")
-        raise error(
+        raise SidecarError(
             _what(first),
             file=place(file, node, path),
             element=dotted(path),

@@ -5,7 +5,6 @@ from __future__ import annotations
 import copy
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 
 import numpy as np
 import pinocchio as pin
@@ -17,19 +16,6 @@ from rover_pin.description.tree import MOVING, Element, Tree, child_of, numbers,
 from rover_pin.errors import SidecarError, nearest
 
 BASE = "rover_base"  # name of the root joint, and of the link put above the root where `up` is not z
-
-
-@dataclass(frozen=True)
-class Rewritten:
-    """What the rewriting found.
-
-    Attributes:
-        limits: per moving joint.
-        held: joints whose limits lock them, and where.
-    """
-
-    limits: Mapping[str, Limits]
-    held: Mapping[str, float] = field(default_factory=dict)
 
 
 def free_joints(tree: Tree, free: Mapping[str, FreeSpec], file: object) -> None:
@@ -123,10 +109,13 @@ def drop_floating_root(tree: Tree, notes: Notes) -> None:
     tree.refresh()
 
 
-def settle_joints(tree: Tree, notes: Notes) -> Rewritten:
-    """Unit axes, limits, locks; `continuous` becomes `revolute` without limits so that q stays a plain vector.
+def settle_joints(tree: Tree, notes: Notes) -> tuple[dict[str, Limits], dict[str, float]]:
+    """Unit axes, limits, locks; `continuous` becomes `revolute` so that q stays a plain vector.
 
     A joint whose limits are closer than 1e-6 becomes a fixed joint at their middle.
+
+    Returns:
+        The limits of every moving joint, and where the others are held.
 
     Raises:
         DescriptionError: limits that contradict themselves.
@@ -153,7 +142,7 @@ def settle_joints(tree: Tree, notes: Notes) -> Rewritten:
             joint.set("type", "revolute")
         etree.SubElement(joint, "axis", xyz=written(axis))
         etree.SubElement(joint, "limit", lower="-1e30", upper="1e30", effort="1e30", velocity="1e30")
-    return Rewritten(limits, held)
+    return limits, held
 
 
 def _unit_axis(joint: Element, name: str, notes: Notes) -> list[float]:
@@ -229,7 +218,7 @@ def bare_text(tree: Tree) -> str:
 
 
 def _whole(inertial: Element) -> Element:
-    """A copy with mass and every moment stated: the URDF parser drops a link's inertia where one is missing."""
+    """A copy with mass and every moment stated: Pinocchio drops a link's inertia where one is missing."""
     from lxml import etree
 
     full = copy.deepcopy(inertial)

@@ -11,13 +11,32 @@ import pinocchio as pin
 from rover_pin.contact import Foot, Wheel
 from rover_pin.description.geometry import BodyPoint
 from rover_pin.description.notes import Notes
+from rover_pin.description.prepare import Prepared
+from rover_pin.description.sidecar import Sidecar
 from rover_pin.description.specs import BellySpec, FootSpec, WheelSpec
+from rover_pin.description.suspects import tell_undeclared_wheels
 from rover_pin.errors import InputError, SidecarError
 from rover_pin.mechanism.frames import find_frame
 from rover_pin.numerics import Array, frozen
 
 _PARALLEL = 1e-6  # sine between the wheel's axis and the joint's
 _ON_AXIS = 1e-5  # m from the wheel's centre to the joint's axis
+
+
+@dataclass(frozen=True)
+class Touching:
+    """What touches the ground, and what must not.
+
+    Attributes:
+        wheels, feet: in the sidecar's order.
+        belly: points for clearance and grounding.
+        wheel_links: links whose own shapes are wheels.
+    """
+
+    wheels: tuple[Wheel, ...]
+    feet: tuple[Foot, ...]
+    belly: tuple[BodyPoint, ...]
+    wheel_links: frozenset[str]
 
 
 @dataclass(frozen=True)
@@ -36,15 +55,39 @@ class Placer:
     file: object
     notes: Notes
 
+    def place(self, sidecar: Sidecar, made: Prepared) -> Touching:
+        """All that touches the ground or must not.
+
+        Raises:
+            SidecarError: an unknown frame, no axis to take, a name given twice, or a size that is no shape.
+        """
+        wheels, feet = self.wheels(sidecar.wheels), self.feet(sidecar.contacts)
+        self._once([*(w.name for w in wheels), *(f.name for f in feet)])
+        if not wheels and not feet:
+            self.notes.add("no wheels nor contacts are declared: nothing touches the ground")
+        tell_undeclared_wheels(made.tree, made.continuous, [w.link for w in wheels], self.notes)
+        links = frozenset(
+            link
+            for spec, wheel in zip(sidecar.wheels, wheels, strict=True)
+            for link in self._links(spec, wheel)
+        )
+        return Touching(wheels, feet, self.belly(sidecar.belly), links)
+
+    def _links(self, spec: WheelSpec, wheel: Wheel) -> list[str]:
+        """Links that are the wheel: all that turn with it; where it is rigid, its own if centred there."""
+        if wheel.drive is None:
+            return [] if any(spec.center) else [wheel.link]
+        turning = self.model.getJointId(wheel.drive)
+        bodies = (f for f in self.model.frames if f.type == pin.FrameType.BODY)
+        return [str(f.name) for f in bodies if f.parentJoint == turning]
+
     def wheels(self, specs: Sequence[WheelSpec]) -> tuple[Wheel, ...]:
         """The declared wheels.
 
         Raises:
             SidecarError: an unknown frame, no axis to take, a name given twice, or a size that is no wheel.
         """
-        found = tuple(self._wheel(spec, f"wheels[{i}]") for i, spec in enumerate(specs))
-        self._once([w.name for w in found], "wheels")
-        return found
+        return tuple(self._wheel(spec, f"wheels[{i}]") for i, spec in enumerate(specs))
 
     def feet(self, specs: Sequence[FootSpec]) -> tuple[Foot, ...]:
         """The declared feet.
@@ -67,7 +110,6 @@ class Placer:
                     spec.friction,
                 )
             )
-        self._once([f.name for f in feet], "contacts")
         return tuple(feet)
 
     def belly(self, specs: Sequence[BellySpec]) -> tuple[BodyPoint, ...]:
@@ -141,15 +183,15 @@ class Placer:
                 error.what, file=self.file, element=element, value=error.value, cure=error.cure
             ) from error
 
-    def _once(self, names: Sequence[str], key: str) -> None:
+    def _once(self, names: Sequence[str]) -> None:
         for i, name in enumerate(names):
             if name in names[:i]:
                 raise SidecarError(
-                    "the name stands twice",
+                    "two wheels or contacts bear one name",
                     file=self.file,
-                    element=f"{key}[{i}]",
+                    element="wheels",
                     value=name,
-                    cure="give each its `name`",
+                    cure="give each its own `name`",
                 )
 
 

@@ -21,7 +21,7 @@ from rover_pin.description.specs import (
 from rover_pin.errors import SidecarError
 from rover_pin.mechanism import CouplingSpec, FrameSpringSpec, JointSpringSpec, LoopSpec
 
-SCHEMA = 1
+SCHEMA: Literal[1] = 1
 _GEPETTO = ("closed_loop", "type", "name_mot")
 
 
@@ -56,6 +56,7 @@ class Sidecar(BaseModel):
     inertials: dict[str, InertialSpec] = {}
     postures: dict[str, dict[str, FiniteFloat]] = {}
     parameters: dict[str, ParameterSpec] = {}
+    tracks: tuple[()] = ()
 
 
 def read_sidecar(text: str, file: object) -> Sidecar:
@@ -114,7 +115,7 @@ def _once(names: Sequence[str], key: str, file: object) -> None:
 
 
 def _from_gepetto(data: dict[str, Any], file: object) -> dict[str, Any]:
-    """`closed_loop: [[a, b]]` with `type: [6d | 3d]` are welds and balls; `name_mot` are the driven joints."""
+    """`closed_loop: [[a, b]]` with `type: [6d | 3d]`: welds and balls; `name_mot`: the driven joints."""
     others = [key for key in data if key not in _GEPETTO]
     if others:
         raise SidecarError(

@@ -1,4 +1,7 @@
-"""What a sidecar may say about joints, masses, wheels, feet and belly; the mechanism's elements bring their own."""
+"""What a sidecar may say about joints, masses, wheels, feet and belly.
+
+The mechanism's elements bring their own specs.
+"""
 
 from __future__ import annotations
 

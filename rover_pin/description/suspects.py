@@ -1,12 +1,18 @@
-"""What a reader of a URDF should be told of: masses that are missing, loops that only Gazebo knows, undeclared wheels."""
+"""What a reader of a URDF should be told of.
+
+Masses that are missing, loops that only Gazebo knows, wheels that are not declared.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Collection
 
+import numpy as np
+
 from rover_pin.description.notes import Notes
 from rover_pin.description.tree import MOVING, Element, Tree, child_of
 from rover_pin.errors import DescriptionError
+from rover_pin.numerics import Array
 
 
 def tell_masses(tree: Tree, notes: Notes) -> None:
@@ -15,7 +21,8 @@ def tell_masses(tree: Tree, notes: Notes) -> None:
     Raises:
         DescriptionError: no link has any mass.
     """
-    missing, zero = [], []
+    missing: list[str] = []
+    zero: list[str] = []
     for name, link in tree.links.items():
         mass = link.find("inertial/mass")
         if mass is not None and float(mass.get("value", 0)) > 0:
@@ -32,6 +39,28 @@ def tell_masses(tree: Tree, notes: Notes) -> None:
         missing, "link {name} has no inertial: no mass", "{n} links have no inertial: no mass ({names})"
     )
     notes.many(zero, "link {name} has zero mass", "{n} links have zero mass ({names})")
+
+
+def tell_inertias(tree: Tree, notes: Notes) -> None:
+    """Inertias that no body has: a negative principal moment, or one larger than the sum of the others."""
+    for name, link in tree.links.items():
+        found = link.find("inertial/inertia")
+        if found is None:
+            continue
+        moments = np.linalg.eigvalsh(_tensor(found))
+        slack = 1e-6 * max(float(np.abs(moments).max()), 1e-12)
+        if moments[0] < -slack or moments[2] > moments[0] + moments[1] + slack:
+            notes.each(
+                name,
+                "link {name} has an inertia that no body can have (statics do not use it)",
+                "{n} links have inertias that no body can have ({names}; statics do not use them)",
+            )
+
+
+def _tensor(element: Element) -> Array:
+    """(3, 3) of an `<inertia>` element, kg m2."""
+    xx, xy, xz, yy, yz, zz = (float(element.get(k, 0)) for k in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 
 def _mass(link: Element) -> float:
@@ -54,7 +83,8 @@ def tell_gazebo_loops(tree: Tree, notes: Notes) -> None:
             continue
         ends = " to ".join((e.text or "").strip() or "?" for e in (parent, child))
         notes.add(
-            f"loop {joint.get('name')} ({ends}) stands only in a <gazebo> tag: dropped; declare it under `loops`"
+            f"loop {joint.get('name')} ({ends}) stands only in a <gazebo> tag: dropped; "
+            "declare it under `loops`"
         )
 
 
