@@ -15,7 +15,9 @@ if TYPE_CHECKING:
     from rover_pin.rover import Rover
 
 _STEPS = 60
-_CLOSE = 1e-10
+_CLOSE = 1e-9  # m
+_SETTLED = 1e-5  # rad or m; what is left moves along the level set of the clearance, not across it
+_NUDGE = 1e-4  # rad or m
 
 
 def posture_for_clearance(
@@ -28,8 +30,10 @@ def posture_for_clearance(
 ) -> dict[str, float]:
     """Joint values whose stance on level ground has its lowest belly point at `goal` above the ground.
 
-    Minimises the sum of squares of the actuated joints' motion from `start`, subject to the clearance:
-    Newton's steps u = start + g (goal - c + g . (u - start)) / g . g, with g the gradient of the clearance c.
+    Minimises the sum of squares of the actuated joints' motion from `start`, subject to the clearance: steps
+    u = start + g (goal - c + g . (u - start)) / g . g, with c the clearance of the lowest belly point and g the
+    gradient of the belly's mean height. The lowest point changes with every roll; following its gradient
+    would tilt the rover to and fro instead of raising it.
 
     Args:
         rover: the rover; it must declare `belly`.
@@ -57,7 +61,8 @@ def posture_for_clearance(
     lower = np.array([rover.lower[rover.column[joint]] for joint in movers])
     upper = np.array([rover.upper[rover.column[joint]] for joint in movers])
     u = home.copy()
-    reached = _clearance(rover, start, movers, u, locked, gravity)
+    found = _clearance(rover, start, movers, u, locked, gravity)
+    reached = None if found is None else found[0]
     for _ in range(_STEPS):
         if not movers or reached is None:
             break
@@ -67,7 +72,7 @@ def posture_for_clearance(
             break
         wanted = home + gradient * (goal - reached + gradient @ (u - home)) / steep
         step = wanted - u
-        if np.max(np.abs(step)) < _CLOSE and abs(goal - reached) < 1e-9:
+        if np.max(np.abs(step)) < _SETTLED and abs(goal - reached) < _CLOSE:
             return dict(zip(movers, (float(value) for value in u), strict=True))
         u, reached = _advance(rover, start, movers, u, step, goal, reached, locked, gravity, lower, upper)
     here = "the rover does not stand" if reached is None else f"the nearest is {reached:.4f} m"
@@ -97,8 +102,8 @@ def _advance(
     for _ in range(12):
         tried = np.clip(u + share * step, lower, upper)
         found = _clearance(rover, start, movers, tried, locked, gravity)
-        if found is not None and abs(found - goal) <= abs(reached - goal) + 1e-9:
-            return tried, found
+        if found is not None and abs(found[0] - goal) <= abs(reached - goal) + 1e-9:
+            return tried, found[0]
         share *= 0.5
     return u, None
 
@@ -110,8 +115,8 @@ def _clearance(
     u: Array,
     locked: tuple[str, ...],
     gravity: float,
-) -> float | None:
-    """Lowest belly point over level ground [m], or None where the rover does not stand."""
+) -> tuple[float, float] | None:
+    """Lowest belly point over level ground and the belly's mean height [m]; None where it does not stand."""
     from rover_pin.statics.settle import on_level
 
     values = {**start, **dict(zip(movers, (float(value) for value in u), strict=True))}
@@ -119,7 +124,8 @@ def _clearance(
     if footing.status != "settled":
         return None
     at = problem.locate(footing.z)
-    return min(float(at.point(point.joint, point.point)[2]) for point in rover.belly)
+    heights = [float(at.point(point.joint, point.point)[2]) for point in rover.belly]
+    return min(heights), sum(heights) / len(heights)
 
 
 def _gradient(
@@ -130,14 +136,18 @@ def _gradient(
     locked: tuple[str, ...],
     gravity: float,
 ) -> Array:
-    """Central differences of the clearance by each mover; 0 where a side does not stand."""
+    """Central differences of the belly's mean height by each mover.
+
+    0 where a side does not stand, and where a mover (a steer joint) changes nothing beyond rounding.
+    """
     gradient = np.zeros(len(u))
     for i in range(len(u)):
         sides = []
         for sign in (1.0, -1.0):
             shifted = u.copy()
-            shifted[i] += sign * 1e-5
+            shifted[i] += sign * _NUDGE
             sides.append(_clearance(rover, start, movers, shifted, locked, gravity))
         if sides[0] is not None and sides[1] is not None:
-            gradient[i] = (sides[0] - sides[1]) / 2e-5
+            gradient[i] = (sides[0][1] - sides[1][1]) / (2.0 * _NUDGE)
+    gradient[np.abs(gradient) < 1e-6 * np.max(np.abs(gradient), initial=0.0)] = 0.0
     return gradient
