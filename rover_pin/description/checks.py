@@ -29,6 +29,7 @@ _COUNTS = {
     ("mimic", "offset"): 1,
 } | {("inertia", key): 1 for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
 
+_ROUNDING = 1e-12  # kg m2 below zero that a mesh program may write
 _MAY_BE_INFINITE = {"limit"}
 
 
@@ -179,7 +180,7 @@ def inertia(tree: Tree, name: str, link: Element) -> None:
         raise tree.error("negative mass", f"link {name}", mass.get("value"), "give its mass in kg")
     found = link.find("inertial/inertia")
     for key in () if found is None else ("ixx", "iyy", "izz"):
-        if float(found.get(key, 0)) < 0:
+        if float(found.get(key, 0)) < -_ROUNDING:
             raise tree.error(
                 f"negative moment of inertia {key}",
                 f"link {name}",

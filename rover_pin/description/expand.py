@@ -65,7 +65,7 @@ def expand(
     if path.suffix != ".xacro" and not _TAG.search(text):
         _refuse_undeclared(path, values, set(), xacro=False)
         return text
-    expanded, asked = _run(path, values, packages, notes, skip_missing_includes)
+    expanded, asked = _run(path, text, values, packages, notes, skip_missing_includes)
     _refuse_undeclared(path, values, asked, xacro=True)
     if "<link" not in expanded:
         macros = _MACRO.findall(text)
@@ -79,7 +79,7 @@ def expand(
 
 
 def _run(
-    path: Path, values: Mapping[str, float], packages: Packages, notes: Notes, skip: bool
+    path: Path, text: str, values: Mapping[str, float], packages: Packages, notes: Notes, skip: bool
 ) -> tuple[str, set[str]]:
     from xacrodoc import xacrodoc as engine
 
@@ -88,10 +88,9 @@ def _run(
     try:
         with _around_xacro(packages, notes, skip), contextlib.redirect_stderr(said):
             engine.xacro.init_stacks(str(path))
-            document = engine.XacroDoc.from_file(
-                str(path), walk_up=False, subargs=arguments, resolve_packages=False
-            )
-            expanded = str(document.dom.toxml())
+            document = engine.xacro.parse(text)
+            engine.xacro.process_doc(document, mappings=arguments)
+            expanded = str(document.toxml())
     except DescriptionError:
         raise
     except Exception as error:  # xacro raises whatever an expression of the file raises

@@ -15,6 +15,8 @@ from rover_pin.errors import SidecarError, nearest
 M = TypeVar("M", bound=BaseModel)
 Path = tuple[str | int, ...]
 
+_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # the same, compiled, where there is one
+
 
 def parse_yaml(text: str, file: object) -> tuple[dict[str, Any], yaml.Node]:
     """The mapping a YAML text holds, and its node tree for line numbers. Read safely: no tags run code.
@@ -23,8 +25,9 @@ def parse_yaml(text: str, file: object) -> tuple[dict[str, Any], yaml.Node]:
         SidecarError: not YAML, a key stated twice, or not a mapping.
     """
     try:
-        node = yaml.compose(text, Loader=yaml.SafeLoader)
-        data = yaml.safe_load(text)
+        loader = _LOADER(text)
+        node = loader.get_single_node()
+        data = loader.construct_document(node) if node is not None else None
     except yaml.YAMLError as problem:
         mark = getattr(problem, "problem_mark", None)
         place = f"{file}:{mark.line + 1}" if mark is not None else file

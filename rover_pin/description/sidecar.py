@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -59,6 +60,7 @@ class Sidecar(BaseModel):
     tracks: tuple[()] = ()
 
 
+@functools.lru_cache(maxsize=64)
 def read_sidecar(text: str, file: object) -> Sidecar:
     """A sidecar from its text; the `robot.yaml` of example-parallel-robots is read too.
 
