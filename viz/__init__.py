@@ -1,0 +1,41 @@
+"""Seeing: Meshcat scenes of stances, one-file pages of stances and studies, plots for papers.
+
+The functions load on first use, so that `import rover_pin` stays light.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rover_pin.viz.browser import save_png as save_png
+    from rover_pin.viz.page.study import save_study_page as save_study_page
+    from rover_pin.viz.page.study import worst_cases as worst_cases
+    from rover_pin.viz.plots import plot_distributions as plot_distributions
+    from rover_pin.viz.plots import plot_map as plot_map
+    from rover_pin.viz.scene import draw as draw
+    from rover_pin.viz.serve import serve as serve
+    from rover_pin.viz.show import save_html as save_html
+    from rover_pin.viz.show import show as show
+
+_HOME = {
+    "draw": "scene",
+    "plot_distributions": "plots",
+    "plot_map": "plots",
+    "save_html": "show",
+    "save_png": "browser",
+    "save_study_page": "page.study",
+    "serve": "serve",
+    "show": "show",
+    "worst_cases": "page.study",
+}
+
+__all__ = sorted(_HOME)
+
+
+def __getattr__(name: str) -> object:
+    """Load the module that holds `name`."""
+    if name not in _HOME:
+        raise AttributeError(f"module 'rover_pin.viz' has no attribute {name!r}")
+    return getattr(importlib.import_module(f"rover_pin.viz.{_HOME[name]}"), name)

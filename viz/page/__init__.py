@@ -1,0 +1,1 @@
+"""One-file pages: the pieces (`html`, `pack`, `columns`) and the study's page (`study`)."""

@@ -1,0 +1,57 @@
+/* The chosen case in words: margins with their place in the study, loads, pose. */
+import { byId, element, fixed, number } from "./format.js";
+import { loadBars } from "./bars.js";
+
+/** Which edge, wheel or joint limits a case, by the shown measure or those that name edges. */
+export function limitingOf(cases, measure, i, names = ["tip", "polygon"]) {
+  for (const name of [measure.name, ...names]) {
+    const word = cases.has(`${name}_limiting`) ? cases.at(`${name}_limiting`, i) : "";
+    if (word && word !== "None") return word;
+  }
+  return "";
+}
+
+function said(state, i) {
+  const { cases, measure } = state;
+  const status = cases.at("status", i);
+  const parts = [cases.header.status_words[status] ?? status];
+  const why = cases.has("reason") ? cases.at("reason", i) : "";
+  if (why && why !== "None") parts.push(why);
+  const limit = limitingOf(cases, measure, i);
+  if (limit && cases.settled(i)) parts.push(`limited by ${limit}`);
+  return parts.join(" · ");
+}
+
+/** Fill the case's card. */
+export function showDetails(state, lightest) {
+  const { cases, chosen } = state;
+  byId("case-name").textContent = `Case ${chosen}`;
+  byId("case-said").textContent = said(state, chosen);
+  byId("case-margins").replaceChildren(
+    ...cases.measures.map((m) => {
+      const value = cases.at(m.name, chosen);
+      const place = Number.isFinite(value) ? `p${Math.round(cases.percentile(m.name, value))}` : "";
+      const row = element("tr", "", null, element("td", "", m.title), element("td", "value", number(value * m.factor)), element("td", "unit", `${m.unit} ${place}`));
+      row.title = `better: ${m.better}`;
+      return row;
+    }),
+  );
+  const loads = cases.header.wheels.map((name) => ({ name, value: cases.at(`load_n/${name}`, chosen) }));
+  loadBars(byId("case-loads"), loads, lightest);
+  const angle = 180 / Math.PI;
+  const rows = [];
+  for (const name of ["x", "y", "z"]) rows.push([name, fixed(cases.at(`${name}_m`, chosen), 3), "m"]);
+  for (const name of ["roll", "pitch", "yaw"]) rows.push([name, fixed(cases.at(`${name}_rad`, chosen) * angle, 1), "°"]);
+  for (const name of cases.header.varied) {
+    const value = cases.at(name, chosen);
+    rows.push([name, typeof value === "string" ? value : number(value, 4), ""]);
+  }
+  const slides = new Map(state.robots[0].nodes.map((node) => [node.name, node.slides]));
+  for (const name of cases.header.joints) {
+    const value = cases.at(`joint_rad/${name}`, chosen);
+    rows.push(slides.get(name) ? [name, fixed(1000 * value, 1), "mm"] : [name, fixed(angle * value, 1), "°"]);
+  }
+  byId("case-pose").replaceChildren(
+    ...rows.map(([name, value, unit]) => element("tr", "", null, element("td", "", name), element("td", "value", value), element("td", "unit", unit))),
+  );
+}

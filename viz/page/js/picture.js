@@ -1,0 +1,73 @@
+/* The chosen case in 3D. */
+import { byId } from "./format.js";
+import { Viewer3d, explain } from "./viewer3d.js";
+import { Labels } from "./labels.js";
+import { Robot } from "./robot.js";
+import { Marks } from "./marks.js";
+import { Landscape } from "./landscape.js";
+import { limitingOf } from "./details.js";
+
+export class Picture {
+  constructor(state, segments) {
+    Object.assign(this, { state, segments, robots: [] });
+    const pane = byId("pane");
+    try {
+      this.view = new Viewer3d(pane);
+    } catch (error) {
+      explain(pane, error);
+      return;
+    }
+    this.landscape = new Landscape(this.view, state.ground);
+    this.marks = new Marks(this.view);
+    this.labels = new Labels(this.view, byId("labels"));
+    this.view.buttons(byId("views"), (name) => this.view.look(name, 2.1));
+    this.coloured = byId("coloured");
+    this.coloured.addEventListener("change", () => this.paint());
+  }
+
+  /** Paint the ground as the map is painted. */
+  paint() {
+    if (this.view) this.landscape.paint(this.state, this.coloured.checked);
+  }
+
+  robot(index) {
+    this.robots[index] ??= new Robot(this.view, this.state.robots[index], index, this.segments);
+    this.robots.forEach((robot, k) => (robot.all.visible = k === index));
+    return this.robots[index];
+  }
+
+  /** Show the chosen case; returns the wheel that carries least, or null. */
+  show() {
+    const { cases, chosen, exact, ground, measure } = this.state;
+    const known = exact[chosen];
+    const posed = Number.isFinite(cases.at("z_m", chosen));
+    byId("unposed").hidden = posed;
+    if (!this.view) return lightestOf(cases, chosen);
+    if (!posed) {
+      this.marks.clear();
+      this.labels.set([]);
+      this.robots.forEach((robot) => (robot.all.visible = false));
+      this.view.viewer.set_dirty();
+      return null;
+    }
+    const robot = this.robot(known?.robot ?? 0);
+    robot.pose(cases, chosen);
+    const com = known?.com ?? robot.com();
+    const contacts = cases.settled(chosen) ? (known?.contacts ?? robot.contacts(cases, chosen, ground)) : [];
+    const first = !this.shown;
+    this.shown = true;
+    this.landscape.around(com[0], com[1], robot.span);
+    this.view.follow(com, cases.at("yaw_rad", chosen), robot.span);
+    if (first) this.view.look("Iso", 2.1);
+    const limiting = limitingOf(cases, measure, chosen);
+    const labels = this.marks.draw({ contacts, com, limiting, span: robot.span, groundHeight: ground.at(com[0], com[1])[0] });
+    this.labels.set(labels);
+    return this.marks.lightest;
+  }
+}
+
+function lightestOf(cases, i) {
+  const loads = cases.header.wheels.map((name) => [name, cases.at(`load_n/${name}`, i)]);
+  const least = Math.min(...loads.map(([, load]) => load));
+  return loads.find(([, load]) => load === least)?.[0] ?? null;
+}

@@ -1,0 +1,150 @@
+/* Meshcat's viewer in a pane of the page: its size, its light, its camera. */
+
+/** World (z up) to the camera's axes (y up). */
+export function cameraAxes([x, y, z]) {
+  return [x, z, -y];
+}
+
+const VIEWS = { Iso: [-0.62, -0.70, 0.50], Side: [0, -1, 0.16], Front: [1, 0, 0.16], Top: [-0.001, 0, 1] };
+
+export class Viewer3d {
+  /** Takes the pane; throws where the browser has no WebGL. */
+  constructor(pane) {
+    this.pane = pane;
+    const probe = document.createElement("canvas");
+    if (!(probe.getContext("webgl2") || probe.getContext("webgl"))) throw new Error("no WebGL");
+    const kept = window.onload;
+    this.viewer = new MeshCat.Viewer(pane);
+    window.onload = kept;
+    this.viewer.gui.domElement.style.display = "none";
+    this.listeners = [];
+    const plain = Object.getPrototypeOf(this.viewer).set_3d_pane_size;
+    this.viewer.set_3d_pane_size = () => plain.call(this.viewer, Math.max(pane.clientWidth, 1), Math.max(pane.clientHeight, 1));
+    new ResizeObserver(() => this.viewer.set_3d_pane_size()).observe(pane);
+    const render = this.viewer.render.bind(this.viewer);
+    this.viewer.render = () => {
+      render();
+      for (const tell of this.listeners) tell();
+    };
+    this.setting();
+    this.viewer.camera.fov = 42;
+    this.viewer.camera.near = 0.02;
+    this.viewer.camera.far = 400;
+    this.viewer.set_3d_pane_size();
+    this.target = [0, 0, 0];
+    this.span = 1;
+    this.yaw = 0;
+  }
+
+  get THREE() {
+    return MeshCat.THREE;
+  }
+
+  /** Quiet background, no grid, a sun that goes with the rover and casts shadows. */
+  setting() {
+    const { viewer, THREE } = this;
+    viewer.set_property(["Background"], "top_color", [0.80, 0.87, 0.94]);
+    viewer.set_property(["Background"], "bottom_color", [0.97, 0.98, 0.99]);
+    for (const name of ["Grid", "Axes"]) viewer.set_property([name], "visible", false);
+    for (const name of ["PointLightNegativeX", "PointLightPositiveX", "FillLight", "SpotLight"]) {
+      viewer.set_property(["Lights", name], "visible", false);
+    }
+    viewer.scene_tree.find(["Lights", "AmbientLight", "<object>"]).object.intensity = 0.0;
+    this.sky = new THREE.HemisphereLight(0xffffff, 0xb8ada0, 0.60);
+    this.sky.position.set(0, 0, 1);
+    this.sun = new THREE.DirectionalLight(0xfff6e8, 0.50);
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.set(2048, 2048);
+    this.sun.shadow.bias = -0.0006;
+    this.sun.shadow.radius = 3;
+    viewer.scene.add(this.sky, this.sun, this.sun.target);
+  }
+
+  /** Replay recorded commands. */
+  replay(commands) {
+    for (const command of commands) this.viewer.handle_command_bytearray(command);
+  }
+
+  /** Nodes under a path that cast no shadow (marks). */
+  shadowless(paths) {
+    for (const path of paths) {
+      this.node(path).object.traverse((thing) => {
+        thing.castShadow = false;
+        thing.receiveShadow = false;
+      });
+    }
+  }
+
+  node(path) {
+    return this.viewer.scene_tree.find(["meshcat", ...path.split("/")]);
+  }
+
+  /** Take the sun along, and the camera by the same way, so that the view stays as it was turned. */
+  follow(target, yaw, span) {
+    const [x, y, z] = target;
+    const { viewer } = this;
+    const to = cameraAxes(target);
+    const from = viewer.controls.target.toArray();
+    const step = new this.THREE.Vector3(...to.map((value, i) => value - from[i]));
+    viewer.camera.position.add(step);
+    viewer.controls.target.add(step);
+    Object.assign(this, { target, yaw, span });
+    this.sun.position.set(x - 2.2 * span, y + 1.4 * span, z + 3.6 * span);
+    this.sun.target.position.set(x, y, z);
+    const box = this.sun.shadow.camera;
+    Object.assign(box, { left: -1.6 * span, right: 1.6 * span, top: 1.6 * span, bottom: -1.6 * span });
+    Object.assign(box, { near: 0.5 * span, far: 9 * span });
+    box.updateProjectionMatrix();
+    viewer.set_dirty();
+  }
+
+  /** Look from one of the named sides, in the rover's heading; `aside` moves the picture by parts of the width. */
+  look(name, distance = 2.5, aside = 0) {
+    const [x, y, z] = VIEWS[name];
+    const length = Math.hypot(x, y, z) / (distance * this.span);
+    const turned = this.yaw + (name === "Iso" ? 2.75 : 0);
+    const [c, s] = [Math.cos(turned), Math.sin(turned)];
+    const away = cameraAxes([(c * x - s * y) / length, (s * x + c * y) / length, z / length]);
+    const { camera, controls } = this.viewer;
+    const target = new this.THREE.Vector3(...cameraAxes(this.target));
+    controls.target.copy(target);
+    camera.position.copy(target).add(new this.THREE.Vector3(...away));
+    if (aside) camera.setViewOffset(1000, 1000 / camera.aspect, 1000 * aside, 0, 1000, 1000 / camera.aspect);
+    controls.update();
+    this.viewer.set_dirty();
+  }
+
+  /** World point to pixels of the pane; null behind the camera. Meshcat turns its whole scene to y up. */
+  project(point) {
+    const { camera, renderer } = this.viewer;
+    camera.updateWorldMatrix(true, false);
+    camera.matrixWorldInverse.copy(camera.matrixWorld).invert();
+    const v = new this.THREE.Vector3(...cameraAxes(point)).project(camera);
+    if (v.z > 1) return null;
+    const { clientWidth: w, clientHeight: h } = renderer.domElement;
+    return [((v.x + 1) / 2) * w, ((1 - v.y) / 2) * h];
+  }
+
+  /** The row of view buttons. */
+  buttons(holder, again) {
+    for (const name of Object.keys(VIEWS)) {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = name;
+      button.title = `Look from: ${name.toLowerCase()}`;
+      button.addEventListener("click", () => again(name));
+      holder.append(button);
+    }
+  }
+}
+
+/** Say in the pane why there is no picture. */
+export function explain(pane, error) {
+  const box = document.createElement("div");
+  box.className = "message";
+  box.textContent =
+    error.message === "no WebGL"
+      ? "No 3D here: this browser has WebGL switched off. Everything else on the page works."
+      : `No 3D here: ${error.message}`;
+  pane.replaceChildren(box);
+}

@@ -1,0 +1,41 @@
+"""How a quantity is shown to people: degrees for radians, millimetres for lengths under a metre or so."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+SHOWN = {
+    "rad": ("°", 180.0 / math.pi),
+    "m": ("mm", 1000.0),
+    "N m": ("N m", 1.0),
+    "1": ("–", 1.0),
+    "-": ("–", 1.0),
+    "": ("–", 1.0),
+}
+
+TITLES = {
+    "polygon": "Polygon margin",
+    "tip": "Tip-over angle",
+    "force_angle": "Force-angle margin",
+    "energy": "Energy margin",
+    "zmp": "Zero-moment margin",
+    "loads": "Load spread",
+    "clearance": "Belly clearance",
+    "friction": "Friction asked",
+    "torque": "Torque asked",
+    "region": "Support region",
+    "slack": "Robust slack",
+    "feasible": "Feasible region",
+}
+
+
+def shown(unit: str) -> tuple[str, float]:
+    """The unit to print and the factor to it; an unknown unit is printed as it stands."""
+    return SHOWN.get(unit, (unit, 1.0))
+
+
+def title_of(measure: str, attributes: Any = None) -> str:
+    """What to call a measure: a short word of ours, else its `long_name`, else its own name."""
+    named = dict(attributes or {}).get("long_name")
+    return TITLES.get(measure) or str(named or measure.replace("_", " "))
