@@ -37,6 +37,15 @@ def test_ships_description_sidecar_and_sources(name):
     assert (folder(name).parent / "solids.xacro").is_file()
 
 
+def test_catalogue_lists_them():
+    assert {entry.name for entry in rp.robots()} >= set(ROBOTS)
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_nothing_had_to_be_guessed(name):
+    assert rp.load(name).notes == ()
+
+
 @pytest.mark.parametrize("name", ROBOTS)
 def test_parameters_are_the_arguments_of_the_xacro(name):
     text = (folder(name) / f"{name}.urdf.xacro").read_text()
