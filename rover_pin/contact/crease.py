@@ -142,21 +142,22 @@ def touch(
     In the ground (P below the surface) the place straight above P is tried too and the nearer one counts.
     """
     found, smooth = nearest(kind, table, params, spacing, px, py, pz, x, y)
-    if found[6] < 0.0:
+    plain = away(found, px, py, pz)
+    if pz < surface(kind, table, params, px, py)[0]:
         other, _ = nearest(kind, table, params, spacing, px, py, pz, px, py)
-        return other if -found[6] > abs(other[6]) else found
-    if smooth:
+        if away(other, px, py, pz) < plain:
+            found, plain = other, away(other, px, py, pz)
+        return found[0], found[1], found[2], found[3], found[4], found[5], -plain
+    if smooth and found[6] >= 0.0:
         return found
     other, _, done = cuts(kind, table, params, px, py, pz, found[0], found[1])
-    plain = math.sqrt((px - found[0]) ** 2 + (py - found[1]) ** 2 + (pz - found[2]) ** 2)
     if done or other[6] < plain or plain < 1e-9:
         return other
-    return (
-        found[0],
-        found[1],
-        found[2],
-        (px - found[0]) / plain,
-        (py - found[1]) / plain,
-        (pz - found[2]) / plain,
-        plain,
-    )
+    nx, ny, nz = (px - found[0]) / plain, (py - found[1]) / plain, (pz - found[2]) / plain
+    return found[0], found[1], found[2], nx, ny, nz, plain
+
+
+@formula
+def away(found: Seven, px: float, py: float, pz: float) -> float:
+    """Distance |P - W| [m]."""
+    return math.sqrt((px - found[0]) ** 2 + (py - found[1]) ** 2 + (pz - found[2]) ** 2)

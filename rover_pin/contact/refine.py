@@ -170,12 +170,17 @@ def refine(
     Returns:
         W (3), n (3), signed distance.
     """
-    _, found, good = newton(kind, table, params, form, frame, cx, cy, cz, ring, width, p, x, y)
+    q, found, good = newton(kind, table, params, form, frame, cx, cy, cz, ring, width, p, x, y)
     px, py, pz, _, _, _, _, _, _ = place(form, frame, cx, cy, cz, ring, p)
     h = surface(kind, table, params, x, y)[0]
     start = math.sqrt((px - x) ** 2 + (py - y) ** 2 + (pz - h) ** 2)
     strayed = (found[0] - x) ** 2 + (found[1] - y) ** 2 > spacing * spacing
-    if good and not strayed and (found[6] <= start or pz < h):
+    if good and found[6] < 0.0:
+        px, py, pz, _, _, _, _, _, _ = place(form, frame, cx, cy, cz, ring, q)
+        good = pz <= surface(kind, table, params, px, py)[0]
+        if good:
+            return found
+    if good and not strayed and found[6] <= start:
         return found
     _, found = nested(kind, table, params, spacing, form, frame, cx, cy, cz, ring, width, p, x, y)
     return found
