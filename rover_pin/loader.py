@@ -110,7 +110,7 @@ def assemble(recipe: Recipe) -> Rover:
         notes.add("no sidecar: suspension, wheels and actuation are only what the URDF says")
     made = prepare(recipe, sidecar, notes)
     name = recipe.name or made.tree.name or recipe.source.stem
-    model = build_model(made.urdf, name)
+    model = build_model(made.urdf, name, made.tree.joints)
     joints = joint_names(model)
     columns = {joint: len(BASE_DOF) + i for i, joint in enumerate(joints)}
     limits = set_limits(model, made.limits)

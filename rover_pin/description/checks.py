@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 
+from rover_pin.description.model import BASE_DOF
 from rover_pin.description.tree import JOINT_TYPES, MOVING, Element, Tree, child_of, parent_of
 from rover_pin.errors import nearest
 
@@ -29,6 +30,7 @@ _COUNTS = {
     ("mimic", "offset"): 1,
 } | {("inertia", key): 1 for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
 
+_RESERVED = {*BASE_DOF, "universe"}
 _ROUNDING = 1e-12  # kg m2 below zero that a mesh program may write
 _MAY_BE_INFINITE = {"limit"}
 
@@ -67,6 +69,8 @@ def _names(tree: Tree) -> None:
             if name in seen:
                 raise tree.error("the name stands twice", f"{kind} {name}", cure=f"rename one <{kind}>")
             seen.add(name)
+            if kind == "joint" and name in _RESERVED:
+                raise tree.error("a name kept for the base", f"joint {name}", cure="rename the joint")
 
 
 def _expanded(tree: Tree) -> None:

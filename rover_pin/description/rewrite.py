@@ -15,7 +15,7 @@ from rover_pin.description.specs import FreeSpec, InertialSpec
 from rover_pin.description.tree import MOVING, Element, Tree, child_of, numbers, parent_of, written
 from rover_pin.errors import SidecarError, nearest
 
-BASE = "rover_base"  # name of the root joint, and of the link put above the root where `up` is not z
+BASE = "rover_base"  # name of the link put above the root where `up` is not z
 
 
 def free_joints(tree: Tree, free: Mapping[str, FreeSpec], file: object) -> None:
@@ -187,11 +187,13 @@ def turn_up(tree: Tree, up: tuple[float, float, float]) -> None:
         if opposite
         else pin.Quaternion.FromTwoVectors(direction, z).toRotationMatrix()
     )
-    root = tree.root
-    etree.SubElement(tree.robot, "link", name=BASE)
-    joint = etree.SubElement(tree.robot, "joint", name=BASE, type="fixed")
+    root, base = tree.root, BASE
+    while base in tree.links or base in tree.joints:
+        base = f"_{base}"
+    etree.SubElement(tree.robot, "link", name=base)
+    joint = etree.SubElement(tree.robot, "joint", name=base, type="fixed")
     etree.SubElement(joint, "origin", xyz="0 0 0", rpy=written(pin.rpy.matrixToRpy(rotation)))
-    etree.SubElement(joint, "parent", link=BASE)
+    etree.SubElement(joint, "parent", link=base)
     etree.SubElement(joint, "child", link=root)
     tree.refresh()
 
