@@ -33,6 +33,13 @@ def inlined(function: F) -> F:
     return cast("F", compiled)
 
 
+def cross(a: Array, b: Array) -> Array:
+    """a x b of two vectors (3,): a tenth of the time of numpy's, which serves every shape."""
+    ax, ay, az = a
+    bx, by, bz = b
+    return np.array([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
+
+
 def frozen(values: ArrayLike) -> Array:
     """A read-only float64 copy of `values`: what a public attribute holds."""
     array = np.array(values, dtype=np.float64)

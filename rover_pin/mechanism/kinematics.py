@@ -45,6 +45,12 @@ class Kinematics:
         world: Array = placement.rotation @ local + placement.translation
         return world
 
+    def point_rows(self, joint: int, local: Array) -> Array:
+        """(p, 3) m, world places of points (p, 3) given in the joint's frame."""
+        placement = self.data.oMi[joint]
+        world: Array = local @ placement.rotation.T + placement.translation
+        return world
+
     def joint_jacobian(self, joint: int) -> Array:
         """(6, nv) linear and angular rows of the joint frame's origin, along world axes."""
         found = self._jacobians.get(joint)

@@ -51,7 +51,10 @@ def balance(stance: Stance) -> Balance:
     """
     if not stance.settled:
         raise InputError(
-            "there is no equilibrium to write", element="stance", value=str(stance.status), cure="settle it first"
+            "there is no equilibrium to write",
+            element="stance",
+            value=str(stance.status),
+            cure="settle it first",
         )
     rover = stance.rover
     q = np.array(stance.configuration)

@@ -104,6 +104,16 @@ class ConeProgram:
         """
         if self._solver is None:
             self._set_up()
+        answer = self._attempt(accepted)
+        for settings in ({}, {"max_step_fraction": 0.9}, {"equilibrate_enable": True}):
+            if answer.outcome != "failed":
+                break
+            # a solver that has had its data changed can stumble where a fresh one does not
+            self._set_up(**settings)
+            answer = self._attempt(accepted)
+        return answer
+
+    def _attempt(self, accepted: float) -> Answer:
         found = self._solver.solve()
         status = str(found.status)
         x, z = np.array(found.x), np.array(found.z)
@@ -115,7 +125,7 @@ class ConeProgram:
             return self._nothing("unbounded" if self._proves_unbounded(x) else "failed")
         return self._checked(x, z, accepted)
 
-    def _set_up(self) -> None:
+    def _set_up(self, **others: float) -> None:
         import clarabel
 
         self._check_finite()
@@ -127,9 +137,13 @@ class ConeProgram:
         settings.verbose = False
         settings.max_threads = 1
         settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = TOLERANCE
+        # what comes here is scaled already, and its scaling would be that of the first data
+        settings.equilibrate_enable = False
         # both of these rewrite the problem and would forbid new data
         settings.presolve_enable = False
         settings.chordal_decomposition_enable = False
+        for name, value in others.items():
+            setattr(settings, name, value)
         self._solver = clarabel.DefaultSolver(
             csc_matrix(np.triu(self._quadratic)),
             self._cost,

@@ -23,7 +23,7 @@ from rover_pin.statics.stance import Status
 if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
 
-OPEN = -1e-9
+OPEN = -2e-7
 """m or rad: a gap below this is a penetration, to be resolved by another set of supports."""
 
 JUMP = 0.2
@@ -45,7 +45,7 @@ def straight(problem: Problem, footing: Footing, z: Array, terrain: Terrain) -> 
     landing = land(problem, z, terrain, footing.active, footing.loops, reach=JUMP * 2.0, iterations=9)
     if landing is None or not stands(problem, landing, footing.sign):
         return None
-    return Footing(landing.state.z, Status.SETTLED, None, "", footing.active, footing.loops, landing.sign)
+    return Footing(landing.z, Status.SETTLED, None, "", footing.active, footing.loops, landing.sign)
 
 
 def stands(problem: Problem, landing: Landing, sign: float) -> bool:
@@ -83,13 +83,15 @@ def follow(
     while s < 1.0:
         count += 1
         if count > 4000:
-            return failed(current.z, Status.NO_CONVERGENCE, None, "the stance could not be followed to the end")
+            return failed(
+                current.z, Status.NO_CONVERGENCE, None, "the stance could not be followed to the end"
+            )
         target = 1.0 if s + step > 1.0 - 1e-12 else s + step
         raised = terrain if target == 1.0 else terrain.blended(level, target)
         landing = land(problem, current.z, raised, current.active, current.loops, reach=JUMP)
         if landing is not None and stands(problem, landing, current.sign):
             current = Footing(
-                landing.state.z, Status.SETTLED, None, "", current.active, current.loops, landing.sign
+                landing.z, Status.SETTLED, None, "", current.active, current.loops, landing.sign
             )
             s = target
             if steps is None:

@@ -61,7 +61,9 @@ def settle_on_level(problem: Problem, posture: Mapping[str, float], ground: Terr
     z = level_start(problem, posture, ground)
     held_up = share_loads(problem, problem.state(z, ground, window=1e-5))
     rest = relax(problem, z, ground, window=1e-5)
-    footing = footing_of(problem, rest, ground, heaviest_loser(problem, held_up, problem.state(z, ground, 1e-5)))
+    footing = footing_of(
+        problem, rest, ground, heaviest_loser(problem, held_up, problem.state(z, ground, 1e-5))
+    )
     if footing.status is Status.SETTLED:
         loose = _fell_to_its_stop(problem, z, footing)
         if loose is not None:
@@ -86,7 +88,7 @@ def footing_of(problem: Problem, rest: Rest, terrain: Terrain, lost: str | None)
     landing = polish(problem, rest, terrain, active, loops)
     if landing is None:
         return failed(z, Status.NO_CONVERGENCE, None, "the last step did not converge")
-    return Footing(landing.state.z, Status.SETTLED, None, "", active, loops, landing.sign)
+    return Footing(landing.z, Status.SETTLED, None, "", active, loops, landing.sign)
 
 
 def polish(

@@ -76,7 +76,7 @@ def least_friction(space: ForceSpace, base: Array, start: float = 0.0) -> LeastF
         elif probe.proven > 0.0:
             lower = max(lower, guess)
         else:  # nearer the root than the solver has digits: probe further from it
-            step *= 4.0
+            step *= 2.0
         if upper - lower <= 4.0 * step:
             return LeastFriction("found", upper, lower, best)
         if lower > _HOPELESS:

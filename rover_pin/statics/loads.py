@@ -97,9 +97,7 @@ def _balanced(
     return found
 
 
-def _proposal(
-    sides: Array, load: Array, counted: NDArray[np.bool_], one_sided: NDArray[np.bool_]
-) -> Array:
+def _proposal(sides: Array, load: Array, counted: NDArray[np.bool_], one_sided: NDArray[np.bool_]) -> Array:
     """Which unknowns are positive: non-negative least squares with balance weighed far above size."""
     both = ~one_sided
     matrix = np.vstack([1e6 * sides, np.diag(counted.astype(float))])

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
 
 ITERATIONS = 25
-STEP = 1e-10
+STEP = 1e-7
+"""Share of the span, or rad: Newton squares its error, so the step that is this small is the last."""
 
 
 @dataclass(frozen=True)
@@ -23,13 +24,15 @@ class Landing:
     """Where Newton came to rest.
 
     Attributes:
-        state: the equations there.
+        z: (n,) where it landed.
+        state: the equations one last step before it, at most `STEP` away.
         active: rows of the state taken as touching.
         multipliers: (m,) N of all rows, zero where not active.
         pulls: (k,) multipliers of the loops, zero for redundant rows.
         sign: sign of the determinant of the bordered system, which changes where a branch folds.
     """
 
+    z: Array
     state: State
     active: Integers
     multipliers: Array
@@ -113,12 +116,13 @@ def land(
             return None
         largest = np.max(np.abs(step) / problem.unit)
         if largest < STEP:
-            return _landing(state, active, multipliers, loops, pulls, rows, determinate)
+            return _landing(z + step, state, active, multipliers, loops, pulls, rows, determinate)
         z = z + step
     return None
 
 
 def _landing(
+    z: Array,
     state: State,
     active: Integers,
     multipliers: Array,
@@ -133,14 +137,16 @@ def _landing(
     pulling = np.zeros(len(state.closure))
     pulling[loops] = pulls
     sign = float(np.linalg.slogdet(rows)[0]) if determinate else 0.0
-    return Landing(state, active, full, pulling, sign)
+    return Landing(z, state, active, full, pulling, sign)
 
 
 def _solve(matrix: Array, right: Array, problem: Problem) -> Array:
     """Scaled least-squares solve: directions that nothing determines do not move."""
     n = problem.n
     scale = np.concatenate([problem.unit, np.full(len(right) - n, problem.weight)])
-    weigh = np.concatenate([problem.unit / (problem.weight * problem.span), np.ones(len(right) - n) / problem.span])
+    weigh = np.concatenate(
+        [problem.unit / (problem.weight * problem.span), np.ones(len(right) - n) / problem.span]
+    )
     scaled = matrix * scale[None, :] * weigh[:, None]
     solution = np.linalg.lstsq(scaled, right * weigh, rcond=1e-11)[0]
     answer: Array = solution * scale

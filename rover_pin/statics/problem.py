@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import pinocchio as pin
@@ -59,6 +59,20 @@ class State:
     closing: Array
 
 
+class Underside(NamedTuple):
+    """Points of the rover that must not be in the ground.
+
+    Attributes:
+        groups: joint and its points (p, 3) m in the joint's frame.
+        links: the link of each point, in order of the groups.
+        radii: m, of each point (a collision sphere's, else 0).
+    """
+
+    groups: list[tuple[int, Array]]
+    links: list[str]
+    radii: Array
+
+
 class Problem:
     """One rover with what is held, under a gravity; terrains and places are given case by case.
 
@@ -87,7 +101,9 @@ class Problem:
         self.one_sided: list[OneSided] = [e for e in (*rover.springs, *rover.tracks) if hasattr(e, "slack")]
         self._index_stops()
         joint_types = [self.model.joints[i].shortname() for i in range(1, self.model.njoints)]
-        sliding = np.array([False, False, True, False, False, False] + [t.startswith("JointModelP") for t in joint_types[1:]])
+        sliding = np.array(
+            [False, False, True, False, False, False] + [t.startswith("JointModelP") for t in joint_types[1:]]
+        )
         self.lengths: NDArray[np.bool_] = sliding[list(reduction.columns)]
 
     def _index_stops(self) -> None:
@@ -135,13 +151,30 @@ class Problem:
         """Kinematics at z."""
         return Kinematics(self.model, self.data, self.reduction.expand(z))
 
+    def place_shapes(self, at: Kinematics) -> tuple[Array, Array]:
+        """Centres (s, 3) m and axes (s, 3) of all shapes, world."""
+        rotations = np.array([at.rotation(joint) for joint in self._carrier_list])[self._carrier_of]
+        origins = np.array([at.origin(joint) for joint in self._carrier_list])[self._carrier_of]
+        centers = np.einsum("sij,sj->si", rotations, self.shapes.centers) + origins
+        return centers, np.einsum("sij,sj->si", rotations, self.shapes.axes)
+
+    @cached_property
+    def underside(self) -> Underside:
+        """Belly and collision points, by the joint that carries them."""
+        points = (*self.rover.belly, *self.rover.hull)
+        joints = sorted({int(point.joint) for point in points})
+        groups = [[point for point in points if point.joint == joint] for joint in joints]
+        ordered = [point for group in groups for point in group]
+        return Underside(
+            [(j, np.array([p.point for p in group])) for j, group in zip(joints, groups, strict=True)],
+            [point.link for point in ordered],
+            np.array([getattr(point, "radius", 0.0) for point in ordered]),
+        )
+
     def search(self, at: Kinematics, terrain: Terrain, window: float) -> tuple[Integers, Array]:
         """Contacts of every shape: owners (c,) and rows (c, 7); the least of each shape first in its group."""
         shapes = self.shapes
-        rotations = np.array([at.rotation(joint) for joint in self._carrier_list])[self._carrier_of]
-        origins = np.array([at.origin(joint) for joint in self._carrier_list])[self._carrier_of]
-        centers = np.einsum("sij,sj->si", rotations, shapes.centers) + origins
-        axes = np.einsum("sij,sj->si", rotations, shapes.axes)
+        centers, axes = self.place_shapes(at)
         found, counts = self._found, self._counts
         find_all(
             terrain.kind, terrain.table, terrain.params, terrain.spacing,
@@ -265,4 +298,3 @@ def _matched(reference: State, state: State, size: int) -> Array:
         away = np.linalg.norm(state.contacts[same, 1:4] - contact[1:4], axis=1)
         rows.append(state.force[same[int(np.argmin(away))]])
     return np.vstack([np.array(rows).reshape(size, -1), state.force[len(state.owners) :]])
-

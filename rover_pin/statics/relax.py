@@ -124,5 +124,3 @@ def _step(
     pulled = np.zeros(len(state.closure))
     pulled[loops] = whole[n:]
     return whole[:n], found, pulled
-
-

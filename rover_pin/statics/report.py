@@ -9,7 +9,7 @@ import numpy as np
 import pinocchio as pin
 
 from rover_pin.mechanism import Kinematics
-from rover_pin.numerics import Array, frozen
+from rover_pin.numerics import Array, cross, frozen
 from rover_pin.statics import residuals
 from rover_pin.statics.ground import Footing, failed
 from rover_pin.statics.loads import Loads, share_loads
@@ -65,7 +65,7 @@ def _judge(
         worst = int(np.argmin(values.real))
         if values[worst].real < -1e-7:
             return _topple(problem, z, terrain, motions @ vectors[:, worst].real), undetermined
-    hit = link_in_ground(problem.rover, problem.locate(z), terrain)
+    hit = link_in_ground(problem, problem.locate(z), terrain)
     if hit is not None:
         return failed(z, Status.GROUNDED, hit[0], f"{hit[0]} is {hit[1]:.3g} m in the ground"), undetermined
     return footing, undetermined
@@ -97,8 +97,10 @@ def _stance(
     rover = problem.rover
     q = frozen(problem.reduction.expand(footing.z))
     at = problem.locate(footing.z)
-    owners, rows = problem.search(at, terrain, 0.0)
-    gaps = {rover.shapes[int(owner)].name: float(row[0]) for owner, row in zip(owners, rows, strict=True)}
+    owners, rows = problem.search(at, terrain, 0.0) if state is None else (state.owners, state.contacts)
+    gaps: dict[str, float] = {}
+    for owner, row in zip(owners, rows, strict=True):
+        gaps.setdefault(rover.shapes[int(owner)].name, float(row[0]))
     contacts: tuple[Contact, ...] = ()
     extra: dict[str, Any] = {}
     if state is not None and loads is not None:
@@ -126,21 +128,16 @@ def _stance(
 
 def _contacts(problem: Problem, state: State, loads: Loads) -> tuple[Contact, ...]:
     """The touching places, with their loads and rolling directions."""
-    at = problem.locate(state.z)
+    centers, axes = problem.place_shapes(problem.locate(state.z))
     found = []
     for row in loads.touching[loads.touching < len(state.owners)]:
-        shape = problem.rover.shapes[int(state.owners[row])]
+        owner = int(state.owners[row])
+        shape = problem.rover.shapes[owner]
         gap, *place = (float(value) for value in state.contacts[row])
         normal = np.array(place[3:])
-        center = at.point(shape.joint, shape.center)
         rolling, radius = np.zeros(3), 0.0
         if hasattr(shape, "drive"):
-            axis = at.rotation(shape.joint) @ shape.axis
-            rolling = np.cross(axis, normal)
-            size = float(np.linalg.norm(rolling))
-            rolling = rolling / size if size > 1e-9 else np.zeros(3)
-            lever = np.array(place[:3]) - center
-            radius = abs(float(np.cross(lever, rolling) @ axis))
+            rolling, radius = _rolling(np.array(place[:3]) - centers[owner], axes[owner], normal)
         found.append(
             Contact(
                 wheel=shape.name,
@@ -156,6 +153,16 @@ def _contacts(problem: Problem, state: State, loads: Loads) -> tuple[Contact, ..
             )
         )
     return tuple(found)
+
+
+def _rolling(away: Array, axis: Array, normal: Array) -> tuple[Array, float]:
+    """Rolling direction, across axis and normal, and the lever [m] of a force along it about the axle."""
+    across = cross(axis, normal)
+    size = float(np.sqrt(across @ across))
+    if size < 1e-9:
+        return np.zeros(3), 0.0
+    rolling = across / size
+    return rolling, abs(float(cross(away, rolling) @ axis))
 
 
 def _forces(
@@ -205,7 +212,7 @@ def _residuals(
     """What `residuals` finds at this pose with these loads."""
     rover = problem.rover
     model = problem.model
-    at = Kinematics(model, model.createData(), state.q)
+    at = Kinematics(model, model.createData(), state.q)  # nothing of the solver's data
     internal = np.zeros(model.nv)
     row = 0
     for loop in rover.loops:
@@ -221,9 +228,9 @@ def _residuals(
     weight = problem.weight
     return {
         "equilibrium": residuals.equilibrium(
-            rover, state.q, problem.reduction.basis, contacts, internal, problem.gravity
+            rover, at, problem.reduction.basis, contacts, internal, problem.gravity
         ),
-        "gap_m": residuals.gap(rover, state.q, terrain, contacts),
-        "loop_m": residuals.closure(rover, state.q),
+        "gap_m": residuals.gap(rover, at, terrain, contacts),
+        "loop_m": residuals.closure(rover, at),
         "complementarity": residuals.complementarity(contacts, gaps, weight),
     }

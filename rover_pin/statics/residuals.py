@@ -15,7 +15,7 @@ import pinocchio as pin
 
 from rover_pin.contact.place import SEGMENT
 from rover_pin.mechanism import Kinematics
-from rover_pin.numerics import Array
+from rover_pin.numerics import Array, cross
 from rover_pin.statics.stance import Contact
 
 if TYPE_CHECKING:
@@ -23,12 +23,13 @@ if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
 
 _TURNS = np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False)
+_AXES = np.eye(3)
 _COSINES, _SINES = np.cos(_TURNS), np.sin(_TURNS)
 
 
 def equilibrium(
     rover: Rover,
-    q: Array,
+    at: Kinematics,
     free: Array,
     contacts: Sequence[Contact],
     internal: Array,
@@ -38,40 +39,35 @@ def equilibrium(
 
     Args:
         rover: the rover.
-        q: (nv,) configuration.
+        at: kinematics at the stance.
         free: (nv, n) directions in which it may move.
         contacts: with their loads.
         internal: (nv,) generalised force of stops, tracks and loops.
         gravity: m/s2.
     """
     model: Any = rover.model
-    data = model.createData()
-    at = Kinematics(model, data, q)
+    data, q = at.data, at.q
     weight = rover.mass * gravity
     total = -weight * pin.jacobianCenterOfMass(model, data, q)[2] + internal
     for contact in contacts:
         local = at.rotation(contact.joint).T @ (contact.point - at.origin(contact.joint))
         place = pin.SE3(np.eye(3), local)
-        jacobian = pin.getFrameJacobian(
-            model, data, contact.joint, place, pin.LOCAL_WORLD_ALIGNED
-        )
+        jacobian = pin.getFrameJacobian(model, data, contact.joint, place, pin.LOCAL_WORLD_ALIGNED)
         total = total + contact.load * jacobian[2]
     for spring in rover.springs:
         total = total + spring.force(at)
     unbalanced = free.T @ total
-    turning = np.abs(free).T @ _is_turning(model) > 0.5
-    scale = np.where(turning, weight * max(rover.wheel_span, 1e-3), weight)
+    scale = weight * np.where(_turns(model, free), max(rover.wheel_span, 1e-3), 1.0)
     return float(np.max(np.abs(unbalanced) / scale, initial=0.0))
 
 
-def gap(rover: Rover, q: Array, terrain: Terrain, contacts: Sequence[Contact]) -> float:
+def gap(rover: Rover, at: Kinematics, terrain: Terrain, contacts: Sequence[Contact]) -> float:
     """Largest violation of the contact conditions [m].
 
     Of every contact: its point's height over the surface and its distance to the wheel's skin (distance to
     the circle minus the tread, in closed form). Of every wheel: how deep 48 points of its skin lie below the
     surface, each where the tread's ball looks straight at the ground.
     """
-    at = Kinematics(rover.model, rover.model.createData(), q)
     worst = 0.0
     centers = np.array([at.point(shape.joint, shape.center) for shape in rover.shapes])
     axes = np.array([at.rotation(shape.joint) @ shape.axis for shape in rover.shapes])
@@ -85,21 +81,11 @@ def gap(rover: Rover, q: Array, terrain: Terrain, contacts: Sequence[Contact]) -
         line = _to_segment if shape.form == SEGMENT else _to_ring
         skin = line(apart, axes[i], shape.ring) - shape.tread
         worst = max(worst, on_surface, abs(skin))
-    for i, shape in enumerate(rover.shapes):
-        ring = centers[i] + _circle(axes[i], shape.ring)
-        if shape.form == SEGMENT:
-            ring = centers[i] + np.linspace(-shape.ring, shape.ring, len(_TURNS))[:, None] * axes[i]
-        slope = terrain.gradient(ring[:, 0], ring[:, 1])
-        skin_points = ring - shape.tread * _normals(slope)
-        slope = terrain.gradient(skin_points[:, 0], skin_points[:, 1])
-        deep = terrain.height(skin_points[:, 0], skin_points[:, 1]) - skin_points[:, 2]
-        worst = max(worst, float(np.max(deep / np.sqrt(1.0 + np.sum(slope**2, axis=-1)))))
-    return worst
+    return max(worst, _deepest(rover, centers, axes, terrain))
 
 
-def closure(rover: Rover, q: Array) -> float:
+def closure(rover: Rover, at: Kinematics) -> float:
     """Largest violation of loops and couplings [m or rad]."""
-    at = Kinematics(rover.model, rover.model.createData(), q)
     parts = [np.abs(element.residual(at)) for element in (*rover.loops, *rover.couplings)]
     return float(np.max(np.concatenate(parts))) if parts else 0.0
 
@@ -112,17 +98,30 @@ def complementarity(contacts: Sequence[Contact], gaps: Mapping[str, float], weig
     return float(max([0.0, *products, *negative, *open_gaps]))
 
 
-def _is_turning(model: Any) -> Array:
-    """(nv,) 1 where the coordinate is an angle."""
-    kinds = [model.joints[i].shortname() for i in range(2, model.njoints)]
-    return np.array([0, 0, 0, 1, 1, 1, *(0 if kind.startswith("JointModelP") else 1 for kind in kinds)], float)
+def _turns(model: Any, free: Array) -> Array:
+    """(n,) whether a direction turns the joint that it moves most."""
+    leading = np.argmax(np.abs(free), axis=0)
+    return np.array(
+        [column >= 3 if column < 6 else not model.joints[int(column) - 4].shortname().startswith("JointModelP")
+         for column in leading]
+    )  # fmt: skip
 
 
-def _normals(slope: Array) -> Array:
-    """(k, 3) unit normals of gradients (k, 2)."""
-    raw = np.column_stack([-slope, np.ones(len(slope))])
-    normals: Array = raw / np.linalg.norm(raw, axis=1, keepdims=True)
-    return normals
+def _deepest(rover: Rover, centers: Array, axes: Array, terrain: Terrain) -> float:
+    """How deep the skin lies in the ground at worst [m], at most 0 where nowhere."""
+    balls = np.concatenate(
+        [
+            center + (_line(axis, shape.ring) if shape.form == SEGMENT else _circle(axis, shape.ring))
+            for shape, center, axis in zip(rover.shapes, centers, axes, strict=True)
+        ]
+    )
+    treads = np.repeat([shape.tread for shape in rover.shapes], len(_TURNS))
+    slope = terrain.gradient(balls[:, 0], balls[:, 1])
+    steep = np.sqrt(1.0 + np.sum(slope**2, axis=1))
+    x, y = (balls[:, :2] + slope * (treads / steep)[:, None]).T
+    z = balls[:, 2] - treads / steep
+    deep = (terrain.height(x, y) - z) / np.sqrt(1.0 + np.sum(terrain.gradient(x, y) ** 2, axis=1))
+    return float(np.max(deep, initial=0.0))
 
 
 def _to_ring(away: Array, axis: Array, ring: float) -> float:
@@ -138,11 +137,16 @@ def _to_segment(away: Array, axis: Array, half: float) -> float:
     return float(np.linalg.norm(away - along * axis))
 
 
+def _line(axis: Array, half: float) -> Array:
+    """(48, 3) points of a segment about the origin."""
+    return np.linspace(-half, half, len(_TURNS))[:, None] * axis
+
+
 def _circle(axis: Array, ring: float) -> Array:
     """(48, 3) points of a circle about the origin."""
-    helper = np.eye(3)[int(np.argmin(np.abs(axis)))]
-    first = np.cross(axis, helper)
-    first /= np.linalg.norm(first)
-    second = np.cross(axis, first)
+    helper = _AXES[int(np.argmin(np.abs(axis)))]
+    first = cross(axis, helper)
+    first /= np.sqrt(first @ first)
+    second = cross(axis, first)
     points: Array = ring * (_COSINES[:, None] * first + _SINES[:, None] * second)
     return points

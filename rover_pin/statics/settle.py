@@ -77,12 +77,11 @@ def settle(
     if footing.status is not Status.SETTLED:
         reason = footing.reason + " (already on level ground)"
         return report(problem, failed(z, footing.status, footing.limiting, reason), terrain, locked)
-    off = wheel_off_map(problem, problem.locate(z), terrain)
     found = straight(problem, footing, z, terrain)
-    if found is None and off is None:
-        found = follow(problem, footing, z, terrain, level)
+    if found is None and wheel_off_map(problem, problem.locate(z), terrain) is not None:
+        found = failed(z, Status.OFF_MAP, None, "a wheel reaches beyond the map")
     if found is None:
-        found = failed(z, Status.OFF_MAP, off, f"{off} reaches beyond the map")
+        found = follow(problem, footing, z, terrain, level)
     return report(problem, found, terrain, locked)
 
 
@@ -161,7 +160,12 @@ def _posture(
             )
         base = values | rover.resolve_posture(None) | given
         named = posture_for_clearance(
-            rover, float(posture["clearance"]), base, tuple(given), _engaged(rover, locks, base, locked), gravity
+            rover,
+            float(posture["clearance"]),
+            base,
+            tuple(given),
+            _engaged(rover, locks, base, locked),
+            gravity,
         )
     else:
         named = rover.resolve_posture(posture)

@@ -14,7 +14,6 @@ from rover_pin.statics.loads import Loads
 from rover_pin.statics.problem import Problem, State
 
 if TYPE_CHECKING:
-    from rover_pin.rover import Rover
     from rover_pin.terrain import Terrain
 
 
@@ -23,9 +22,7 @@ def wheel_off_map(problem: Problem, at: Kinematics, terrain: Terrain) -> str | N
     if not np.any(np.isfinite(terrain.extent)):
         return None
     shapes = problem.shapes
-    joints = [int(joint) for joint in shapes.joints]
-    centers = np.array([at.point(joint, c) for joint, c in zip(joints, shapes.centers, strict=True)])
-    axes = np.array([at.rotation(joint) @ a for joint, a in zip(joints, shapes.axes, strict=True)])
+    centers, axes = problem.place_shapes(at)
     reach = half_extents(shapes.forms, axes, shapes.rings, shapes.treads)
     xmin, xmax, ymin, ymax = terrain.extent
     low, high = centers[:, :2] - reach, centers[:, :2] + reach
@@ -33,18 +30,17 @@ def wheel_off_map(problem: Problem, at: Kinematics, terrain: Terrain) -> str | N
     return str(problem.rover.shapes[int(np.argmax(off))].name) if np.any(off) else None
 
 
-def link_in_ground(rover: Rover, at: Kinematics, terrain: Terrain) -> tuple[str, float] | None:
+def link_in_ground(problem: Problem, at: Kinematics, terrain: Terrain) -> tuple[str, float] | None:
     """The deepest belly or collision point in the terrain: its link and its depth [m], or None."""
-    points = (*rover.belly, *rover.hull)
-    if not points:
+    skin = problem.underside
+    if not skin.links:
         return None
-    places = np.array([at.point(p.joint, p.point) for p in points])
-    radii = np.array([getattr(p, "radius", 0.0) for p in points])
-    above = places[:, 2] - radii - terrain.height(places[:, 0], places[:, 1])
+    places = np.vstack([at.point_rows(joint, points) for joint, points in skin.groups])
+    above = places[:, 2] - skin.radii - terrain.height(places[:, 0], places[:, 1])
     deepest = int(np.argmin(above))
     if above[deepest] >= -1e-9:
         return None
-    return points[deepest].link, float(-above[deepest])
+    return skin.links[deepest], float(-above[deepest])
 
 
 def free_motions(state: State, loads: Loads, problem: Problem) -> Array:
