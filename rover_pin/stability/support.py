@@ -49,7 +49,7 @@ def support_polygon(points: Sequence[Array], wheels: Sequence[str]) -> SupportPo
     places = np.asarray(points, dtype=np.float64).reshape(-1, 3)
     count = len(places)
     if count < 3:
-        return _none(f"{count} contact{'' if count == 1 else 's'} span no polygon")
+        return _none("1 contact spans no polygon" if count == 1 else f"{count} contacts span no polygon")
     size = float(np.max(np.ptp(places[:, :2], axis=0)))
     kept = _separate(places, wheels, SAME_PLACE * size) if len(set(wheels)) < count else list(range(count))
     if len(kept) < 3:
