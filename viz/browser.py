@@ -81,7 +81,9 @@ def picture(html: str, *, width: int = 1600, height: int = 900, fragment: str = 
         except (OSError, subprocess.TimeoutExpired) as error:
             said = [str(error).splitlines()[0]]
         if not target.is_file():
-            raise BrowserError("made no picture", file=browser, value=said[0], cure="save an HTML page instead")
+            raise BrowserError(
+                "made no picture", file=browser, value=said[0], cure="save an HTML page instead"
+            )
         return target.read_bytes()
 
 

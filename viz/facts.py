@@ -9,7 +9,7 @@ import numpy as np
 
 from rover_pin.viz.arrows import lightest
 from rover_pin.viz.scene import span_of
-from rover_pin.viz.units import shown, title_of
+from rover_pin.viz.units import ranked, shown, title_of
 
 if TYPE_CHECKING:
     from rover_pin.stability.margin import Margin
@@ -30,7 +30,7 @@ def margins_of(stance: Stance) -> Mapping[str, Margin]:
     """Every measure of a settled stance; none of another."""
     if not stance.settled:
         return {}
-    from rover_pin.stability import stability
+    from rover_pin.stability.report import stability
 
     return dict(stability(stance))
 
@@ -52,9 +52,11 @@ def facts(stance: Stance, margins: Mapping[str, Margin], contour_m: float) -> di
         "reason": stance.reason,
         "weight_n": stance.weight,
         "redundant": stance.redundant,
-        "loads": [{"name": name, "value": value} for name, value in stance.loads.items()] if stance.settled else [],
+        "loads": [{"name": name, "value": value} for name, value in stance.loads.items()]
+        if stance.settled
+        else [],
         "lightest": lightest(stance) if stance.settled else None,
-        "margins": [_margin(name, margin) for name, margin in margins.items()],
+        "margins": [_margin(name, margins[name]) for name in ranked(margins)],
         "pose": _pose(stance),
         "residuals": [{"name": name, "value": value} for name, value in stance.residuals.items()],
         "contour_m": contour_m,
@@ -79,7 +81,8 @@ def _margin(name: str, margin: Margin) -> dict[str, Any]:
 
 def _pose(stance: Stance) -> list[dict[str, Any]]:
     rows = [
-        {"name": axis, "value": value, "unit": "m"} for axis, value in zip("xyz", stance.position, strict=True)
+        {"name": axis, "value": value, "unit": "m"}
+        for axis, value in zip("xyz", stance.position, strict=True)
     ]
     for angle, value in zip(("roll", "pitch", "yaw"), stance.rpy, strict=True):
         rows.append({"name": angle, "value": float(np.degrees(value)), "unit": "°"})

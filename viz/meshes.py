@@ -13,7 +13,9 @@ from rover_pin.viz.surfaces import Surface, joined, revolved, ring_profile
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
 
-Y_TO_Z = np.array([[1.0, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]])  # three.js cylinders lie along y
+Y_TO_Z = np.array(
+    [[1.0, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]]
+)  # three.js cylinders lie along y
 
 
 def surface_object(surface: Surface, *, on_top: bool = False, opacity: float = 1.0) -> Any:
@@ -34,8 +36,8 @@ def visual_object(visual: Any) -> tuple[Any, Array]:
     """The Meshcat object of a URDF visual, and its (4, 4) placement in the joint's frame."""
     from meshcat import geometry as g
 
-    rgba = tuple(float(part) for part in visual.rgba) if visual.rgba is not None else (*BODY, 1.0)
-    material = g.MeshPhongMaterial(color=hexadecimal(rgba[:3]), opacity=rgba[3], shininess=12)
+    red, green, blue, alpha = (float(part) for part in (visual.rgba or (*BODY, 1.0)))
+    material = g.MeshPhongMaterial(color=hexadecimal((red, green, blue)), opacity=alpha, shininess=12)
     placement = np.asarray(visual.placement, dtype=np.float64)
     size = [float(part) for part in np.atleast_1d(visual.size)] if visual.size is not None else []
     if visual.kind == "box":
@@ -63,7 +65,7 @@ def _read_mesh(path: str) -> tuple[Array, Any]:
 
 
 def ring_surface(shape: Any) -> Surface:
-    """The swept ring of a wheel, the ball of a foot or a capsule, in its joint's frame, as it touches the ground.
+    """What touches the ground, in its joint's frame: a wheel's swept ring, a ball or a capsule.
 
     The side is drawn lighter inside two thirds of the ring, where the hub is.
     """

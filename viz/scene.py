@@ -1,4 +1,4 @@
-"""A stance as a Meshcat scene, written through Meshcat's own Visualizer: live, saved and study pages share it.
+"""A stance as a Meshcat scene, written through Meshcat's own Visualizer: every page shares it.
 
 Paths: `rover` with a node or two a joint (see tree), `rover/.../visuals/N` for looks, `ground`, `loads`,
 `support/area`, `support/edges`, `com`.
@@ -30,7 +30,7 @@ def span_of(rover: Rover) -> float:
 
 
 def draw_robot(visualizer: Any, rover: Rover) -> None:
-    """The robot's looks in its tree of joints, all joints at zero; notes of unreadable meshes stay with rover."""
+    """The robot's looks in its tree of joints, the base and all joints at zero."""
     nodes = {node.joint: node for node in joint_nodes(rover.model)}
     for node in nodes.values():
         if node.fixed:

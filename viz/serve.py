@@ -37,7 +37,10 @@ class Served:
             self._server = ThreadingHTTPServer((LOOPBACK, port), _handler(self))
         except (OSError, OverflowError) as error:
             raise InputError(
-                "this port cannot be served", element="port", value=port, cure="leave it out to take a free one"
+                "this port cannot be served",
+                element="port",
+                value=port,
+                cure="leave it out to take a free one",
             ) from error
         self._server.daemon_threads = True
         self.port = int(self._server.server_address[1])
@@ -47,7 +50,9 @@ class Served:
 
     def _put(self, html: str) -> None:
         # The page asks for its mark and loads itself anew when it changed; only a served page may connect.
-        live = html.replace("connect-src 'none'", "connect-src 'self'").replace("<body", '<body data-live="mark"', 1)
+        live = html.replace("connect-src 'none'", "connect-src 'self'").replace(
+            "<body", '<body data-live="mark"', 1
+        )
         self._body = live.encode("utf-8")
         self._mark = hashlib.sha256(self._body).hexdigest()
 
@@ -88,7 +93,7 @@ class Served:
 
 def _handler(served: Served) -> type[BaseHTTPRequestHandler]:
     class Handler(BaseHTTPRequestHandler):
-        def do_GET(self) -> None:  # noqa: N802 (the library's name)
+        def do_GET(self) -> None:
             allowed = {f"{name}:{served.port}" for name in (LOOPBACK, "localhost")}
             found = served.answer(self.path.split("?")[0]) if self.headers.get("Host") in allowed else None
             if found is None:

@@ -26,7 +26,9 @@ def stance_page(stance: Stance, margins: Mapping[str, Margin] | None = None) -> 
         margins: its measures; every measure is evaluated where none are given.
     """
     known = margins_of(stance) if margins is None else margins
-    limiting = next((m.limiting for name in ("polygon", "tip") if (m := known.get(name)) and m.limiting), None)
+    limiting = next(
+        (m.limiting for name in ("polygon", "tip") if (m := known.get(name)) and m.limiting), None
+    )
     visualizer, recorder = recording()
     contour = draw(visualizer, stance, limiting=limiting)
     pack = Pack({"stance": facts(stance, known, contour)}, {"commands": recorder.stream()})
@@ -51,7 +53,7 @@ def show(stance: Stance, *, port: int = 0, open_browser: bool = True) -> Served:
         open_browser: whether to open the page.
 
     Returns:
-        The running server: `url`, `replace(stance)` shows another stance in the open pages, `wait()`, `close()`.
+        The running server: `url`, `replace(stance)` for another stance in open pages, `wait()`, `close()`.
 
     Raises:
         InputError: the port is taken.

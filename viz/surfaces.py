@@ -1,4 +1,4 @@
-"""Triangle meshes made from numbers: swept rings, tubes, arrows, balls; all in metres, one colour a vertex."""
+"""Triangle meshes made from numbers: swept rings, tubes, arrows, balls; one colour a vertex."""
 
 from __future__ import annotations
 
@@ -57,7 +57,9 @@ def revolved(profile: Array, colours: Array, start: Array, axis: Array, segments
     local = np.stack([radial * np.cos(angles), radial * np.sin(angles), along], axis=-1).reshape(-1, 3)
     i, j = np.meshgrid(np.arange(rows - 1), np.arange(segments), indexing="ij")
     a = (i * columns + j).ravel()
-    faces = np.concatenate([np.stack([a, a + 1, a + columns], 1), np.stack([a + 1, a + columns + 1, a + columns], 1)])
+    faces = np.concatenate(
+        [np.stack([a, a + 1, a + columns], 1), np.stack([a + 1, a + columns + 1, a + columns], 1)]
+    )
     return Surface(local @ frame_along(axis).T + start, faces, np.repeat(colours, columns, axis=0))
 
 

@@ -70,7 +70,9 @@ def ground_surface(terrain: Terrain, x: float, y: float, span: float) -> tuple[S
     rows, columns = H.shape
     i, j = np.meshgrid(np.arange(rows - 1), np.arange(columns - 1), indexing="ij")
     a = (i * columns + j).ravel()
-    faces = np.concatenate([np.stack([a, a + 1, a + columns], 1), np.stack([a + 1, a + columns + 1, a + columns], 1)])
+    faces = np.concatenate(
+        [np.stack([a, a + 1, a + columns], 1), np.stack([a + 1, a + columns + 1, a + columns], 1)]
+    )
     return Surface(np.stack([X, Y, H], axis=-1).reshape(-1, 3), faces, colours.reshape(-1, 3)), step
 
 
@@ -84,12 +86,14 @@ def _pitch(xs: Array, ys: Array) -> Array:
 
 
 def _shades(H: Array, steepness: Array, step: float, pitch: Array) -> Array:
-    """Sand, a little lighter uphill, darker on contours one vertex wide; faded where lines would merge."""
+    """Sand, a little lighter uphill, darker on contours; none where they would smear or merge."""
     low, reach = float(H.min()), max(float(np.ptp(H)), 1e-9)
     tone = 0.92 + 0.12 * (H - low) / reach if step else np.full(H.shape, 1.0)
     if step:
         away = np.abs(H / step - np.round(H / step)) * step / np.maximum(steepness, 1e-6)
         apart = step / np.maximum(steepness, 1e-6)
-        fade = np.clip(apart / (5 * pitch) - 0.6, 0.0, 1.0)
+        fade = np.clip(apart / (5 * pitch) - 0.6, 0.0, 1.0) * np.clip(
+            2.5 - pitch / float(pitch.min()), 0.0, 1.0
+        )
         tone = tone * (1 - 0.22 * fade * np.clip(1.1 - away / pitch, 0.0, 1.0))
-    return tone[..., None] * np.array(SAND)
+    return np.asarray(tone[..., None] * np.array(SAND), dtype=np.float64)

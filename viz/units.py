@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import Any
 
 SHOWN = {
@@ -19,15 +20,22 @@ TITLES = {
     "tip": "Tip-over angle",
     "force_angle": "Force-angle margin",
     "energy": "Energy margin",
-    "zmp": "Zero-moment margin",
-    "loads": "Load spread",
+    "zmp": "ZMP margin",
+    "loads": "Lightest over mean load",
     "clearance": "Belly clearance",
-    "friction": "Friction asked",
-    "torque": "Torque asked",
+    "friction": "Friction margin",
+    "torque": "Holding torque",
     "region": "Support region",
     "slack": "Robust slack",
     "feasible": "Feasible region",
 }
+
+FIRST = ("tip", "polygon", "force_angle", "energy", "zmp", "friction", "torque", "clearance", "loads")
+
+
+def ranked(measures: Iterable[str]) -> list[str]:
+    """Measures in the order people look at them: tipping first; those that are not known here last."""
+    return sorted(measures, key=lambda name: (FIRST.index(name) if name in FIRST else len(FIRST), name))
 
 
 def shown(unit: str) -> tuple[str, float]:

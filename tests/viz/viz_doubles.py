@@ -23,7 +23,9 @@ class Hills:
         self.tall, self.extent = height, extent
 
     def height(self, x, y):
-        return self.tall * (np.sin(1.3 * np.asarray(x)) * np.cos(1.1 * np.asarray(y)) + 0.3 * np.sin(3.1 * np.asarray(x) + 1))
+        return self.tall * (
+            np.sin(1.3 * np.asarray(x)) * np.cos(1.1 * np.asarray(y)) + 0.3 * np.sin(3.1 * np.asarray(x) + 1)
+        )
 
     def gradient(self, x, y):
         x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
@@ -45,27 +47,37 @@ def _model():
     base = pin.JointModelComposite(pin.JointModelTranslation())
     base.addJoint(pin.JointModelSphericalZYX())
     root = model.addJoint(0, base, pin.SE3.Identity(), "base")
-    model.appendBodyToJoint(root, pin.Inertia(30.0, np.array([0.05, 0, 0.05]), 0.5 * np.eye(3)), pin.SE3.Identity())
+    model.appendBodyToJoint(
+        root, pin.Inertia(30.0, np.array([0.05, 0, 0.05]), 0.5 * np.eye(3)), pin.SE3.Identity()
+    )
     slide = model.addJoint(root, pin.JointModelPZ(), pin.SE3(np.eye(3), np.array([0.2, 0, 0.2])), "mast")
-    model.appendBodyToJoint(slide, pin.Inertia(1.0, np.array([0, 0, 0.2]), 0.01 * np.eye(3)), pin.SE3.Identity())
+    model.appendBodyToJoint(
+        slide, pin.Inertia(1.0, np.array([0, 0, 0.2]), 0.01 * np.eye(3)), pin.SE3.Identity()
+    )
     for side, sign in SIDES.items():
         tilt = pin.SE3(pin.rpy.rpyToMatrix(0, 0, 0.02 * sign), np.array([0.05, 0.42 * sign, 0.0]))
         rocker = model.addJoint(root, pin.JointModelRY(), tilt, f"rocker_{side}")
-        model.appendBodyToJoint(rocker, pin.Inertia(3.0, np.array([0.2, 0, -0.1]), 0.1 * np.eye(3)), pin.SE3.Identity())
+        model.appendBodyToJoint(
+            rocker, pin.Inertia(3.0, np.array([0.2, 0, -0.1]), 0.1 * np.eye(3)), pin.SE3.Identity()
+        )
         bogie = model.addJoint(
             rocker,
             pin.JointModelRevoluteUnaligned(np.array([0.0, -1.0, 0.0])),
             pin.SE3(np.eye(3), np.array([-0.42, 0.05 * sign, -0.12])),
             f"bogie_{side}",
         )
-        model.appendBodyToJoint(bogie, pin.Inertia(2.0, np.array([0, 0, -0.1]), 0.1 * np.eye(3)), pin.SE3.Identity())
+        model.appendBodyToJoint(
+            bogie, pin.Inertia(2.0, np.array([0, 0, -0.1]), 0.1 * np.eye(3)), pin.SE3.Identity()
+        )
     return model
 
 
 def _box(link, joint, xyz, size, rgba):
     placement = np.eye(4)
     placement[:3, 3] = xyz
-    return SimpleNamespace(link=link, joint=joint, placement=placement, kind="box", size=size, mesh=None, rgba=rgba)
+    return SimpleNamespace(
+        link=link, joint=joint, placement=placement, kind="box", size=size, mesh=None, rgba=rgba
+    )
 
 
 def rover():
@@ -83,7 +95,13 @@ def rover():
             ("bogie", bogie, (-0.3, 0, -0.1), (0.3, 0, -0.1)),
         ):
             a, b = np.array(a), np.array(b)
-            part = _box(f"{arm}_{side}", joint, (a + b) / 2, (np.linalg.norm(b - a), 0.05, 0.06), (0.45, 0.5, 0.55, 1.0))
+            part = _box(
+                f"{arm}_{side}",
+                joint,
+                (a + b) / 2,
+                (np.linalg.norm(b - a), 0.05, 0.06),
+                (0.45, 0.5, 0.55, 1.0),
+            )
             part.placement[:3, :3] = pin.rpy.rpyToMatrix(0, -np.arctan2(b[2] - a[2], b[0] - a[0]), 0)
             visuals.append(part)
         for name, joint, at in (
@@ -93,13 +111,30 @@ def rover():
         ):
             wheels.append(
                 SimpleNamespace(
-                    name=name, link=f"wheel_{name}", joint=joint, center=np.array(at), axis=np.array([0.0, 1.0, 0.0]),
-                    ring=RADIUS - TREAD, tread=TREAD, radius=RADIUS, friction=0.6, form=0, free=False,
+                    name=name,
+                    link=f"wheel_{name}",
+                    joint=joint,
+                    center=np.array(at),
+                    axis=np.array([0.0, 1.0, 0.0]),
+                    ring=RADIUS - TREAD,
+                    tread=TREAD,
+                    radius=RADIUS,
+                    friction=0.6,
+                    form=0,
+                    free=False,
                 )
             )
     return SimpleNamespace(
-        name="stand-in", model=model, visuals=tuple(visuals), shapes=tuple(wheels), wheels=tuple(wheels), feet=(),
-        wheel_span=1.6, mass=float(sum(i.mass for i in model.inertias)), notes=(), parameters={},
+        name="stand-in",
+        model=model,
+        visuals=tuple(visuals),
+        shapes=tuple(wheels),
+        wheels=tuple(wheels),
+        feet=(),
+        wheel_span=1.6,
+        mass=float(sum(i.mass for i in model.inertias)),
+        notes=(),
+        parameters={},
         joints=tuple(str(n) for n in model.names[2:]),
     )
 
@@ -128,21 +163,45 @@ def stance(terrain=None, x=0.4, y=-0.3, yaw=0.5, status="settled"):
             rows.append((point, n, point[2] - float(terrain.height(point[0], point[1]))))
         return rows
 
-    found = least_squares(lambda f: [row[2] for row in touches(f)], [float(terrain.height(x, y)) + 0.45, 0, 0, 0, 0, 0])
+    found = least_squares(
+        lambda f: [row[2] for row in touches(f)], [float(terrain.height(x, y)) + 0.45, 0, 0, 0, 0, 0]
+    )
     q, values = q_of(found.x)
     share = np.array([1.0, 0.7, 0.9, 1.25, 0.95, 1.1])
     loads = robot.mass * 9.81 * share / share.sum()
     contacts = tuple(
-        SimpleNamespace(wheel=w.name, joint=w.joint, point=p, normal=n, load=float(load), gap=0.0, friction=0.6, free=False)
+        SimpleNamespace(
+            wheel=w.name,
+            joint=w.joint,
+            point=p,
+            normal=n,
+            load=float(load),
+            gap=0.0,
+            friction=0.6,
+            free=False,
+        )
         for w, (p, n, _), load in zip(robot.wheels, touches(found.x), loads, strict=True)
     )
     settled = status == "settled"
     return SimpleNamespace(
-        rover=robot, terrain=terrain, status=status, settled=settled, reason="" if settled else "wheel 'fl' would pull",
-        limiting=None, position=q[:3], rpy=np.array([q[5], q[4], q[3]]), joints=values,
-        contacts=contacts if settled else (), loads={w.name: c.load for w, c in zip(robot.wheels, contacts)} if settled else {},
-        gaps={}, com=np.array(pin.centerOfMass(model, data, q)), gravity=9.81, configuration=q, weight=robot.mass * 9.81,
-        residuals={"equilibrium": 1e-12, "gap_m": 3e-10}, redundant=0,
+        rover=robot,
+        terrain=terrain,
+        status=status,
+        settled=settled,
+        reason="" if settled else "wheel 'fl' would pull",
+        limiting=None,
+        position=q[:3],
+        rpy=np.array([q[5], q[4], q[3]]),
+        joints=values,
+        contacts=contacts if settled else (),
+        loads={w.name: c.load for w, c in zip(robot.wheels, contacts, strict=True)} if settled else {},
+        gaps={},
+        com=np.array(pin.centerOfMass(model, data, q)),
+        gravity=9.81,
+        configuration=q,
+        weight=robot.mass * 9.81,
+        residuals={"equilibrium": 1e-12, "gap_m": 3e-10},
+        redundant=0,
     )
 
 
@@ -172,8 +231,12 @@ def dataset(n=40, seed=3, extent=4.0):
 
     random = np.random.default_rng(seed)
     ground = Hills(extent=(-extent - 1, extent + 1, -extent - 1, extent + 1))
-    x, y, yaw = random.uniform(-extent, extent, n), random.uniform(-extent, extent, n), random.uniform(-3.1, 3.1, n)
-    stances = [stance(ground, *place) for place in zip(x, y, yaw)]
+    x, y, yaw = (
+        random.uniform(-extent, extent, n),
+        random.uniform(-extent, extent, n),
+        random.uniform(-3.1, 3.1, n),
+    )
+    stances = [stance(ground, *place) for place in zip(x, y, yaw, strict=True)]
     status = np.array(["settled"] * n, dtype=object)
     status[::17], status[5::41] = "tips", "off_map"
     ok = status == "settled"
@@ -192,21 +255,42 @@ def dataset(n=40, seed=3, extent=4.0):
         return ("case", values, {"units": units, **attrs})
 
     each = {
-        "status": case(status), "reason": case(np.where(ok, "", "bogie_l folds")), "x_m": case(x, "m", varied=1),
-        "y_m": case(y, "m", varied=1), "yaw_rad": case(yaw, "rad", varied=1),
+        "status": case(status),
+        "reason": case(np.where(ok, "", "bogie_l folds")),
+        "x_m": case(x, "m", varied=1),
+        "y_m": case(y, "m", varied=1),
+        "yaw_rad": case(yaw, "rad", varied=1),
         "z_m": case([s.position[2] for s in stances] * np.where(status == "off_map", np.nan, 1.0), "m"),
-        "roll_rad": case([s.rpy[0] for s in stances], "rad"), "pitch_rad": case([s.rpy[1] for s in stances], "rad"),
+        "roll_rad": case([s.rpy[0] for s in stances], "rad"),
+        "pitch_rad": case([s.rpy[1] for s in stances], "rad"),
         "load_n": (("case", "wheel"), share * robot.mass * 9.81 * nan[:, None], {"units": "N"}),
-        "joint_rad": (("case", "joint"), np.array([[s.joints[j] for j in robot.joints] for s in stances]), {"units": "rad"}),
+        "joint_rad": (
+            ("case", "joint"),
+            np.array([[s.joints[j] for j in robot.joints] for s in stances]),
+            {"units": "rad"},
+        ),
         "tip": case(tip, "rad", better="high", long_name="tip angle"),
         "tip_limiting": case(edges[random.integers(0, 4, n)]),
-        "polygon": case(polygon, "m", better="high"), "polygon_limiting": case(edges[random.integers(0, 4, n)]),
-        "clearance": case(clearance, "m", better="high"), "clearance_limiting": case(np.full(n, "body", dtype=object)),
+        "polygon": case(polygon, "m", better="high"),
+        "polygon_limiting": case(edges[random.integers(0, 4, n)]),
+        "clearance": case(clearance, "m", better="high"),
+        "clearance_limiting": case(np.full(n, "body", dtype=object)),
         "torque": case(torque, "N m", better="low"),
         "polygon_edge": (("case", "edge"), np.zeros((n, 4)), {"better": "high"}),
         "friction": case(random.uniform(0.3, 0.8, n), "1", varied=1),
     }
-    coords = {"wheel": [w.name for w in robot.wheels], "joint": list(robot.joints), "edge": edges, "case": np.arange(n)}
-    about = {"title": "Stand-in on hills", "seed": np.int64(3), "gravity": 9.81, "study": "robot: a </script> b\ncases: {n: 40}",
-             "created": "2026-11-22T16:00:00+00:00", "rover_pin_version": "0.1.0"}
+    coords = {
+        "wheel": [w.name for w in robot.wheels],
+        "joint": list(robot.joints),
+        "edge": edges,
+        "case": np.arange(n),
+    }
+    about = {
+        "title": "Stand-in on hills",
+        "seed": np.int64(3),
+        "gravity": 9.81,
+        "study": "robot: a </script> b\ncases: {n: 40}",
+        "created": "2026-11-22T16:00:00+00:00",
+        "rover_pin_version": "0.1.0",
+    }
     return xr.Dataset(each, coords=coords, attrs=about), robot, ground, stances

@@ -1,4 +1,4 @@
-"""Columns of numbers as a page carries them: 16 bits a value where that is enough, byte planes, words by number.
+"""Columns as a page carries them: 16 bits a number where that is enough, byte planes, words by number.
 
 A page's values are rounded; each column says by how much. The study's netCDF file is the record.
 """
@@ -82,7 +82,9 @@ def numbers(values: ArrayLike) -> Column:
 
 def _wide(given: NDArray[np.float64], finite: NDArray[np.float64]) -> Column:
     kept = finite.astype(np.float32).astype(np.float64)
-    return Column("f32", planes(given.astype(np.float32)), rounding=float(np.abs(kept - finite).max(initial=0.0)))
+    return Column(
+        "f32", planes(given.astype(np.float32)), rounding=float(np.abs(kept - finite).max(initial=0.0))
+    )
 
 
 def words(values: Iterable[Any]) -> Column:
@@ -101,7 +103,8 @@ def decoded(about: dict[str, Any], data: bytes) -> NDArray[Any]:
         return unplaned(data, "f4").astype(np.float64)
     codes = unplaned(data, "u2")
     if about["kind"] == "words":
-        return np.array(about["words"], dtype=object)[codes]
+        listed: NDArray[Any] = np.array(about["words"], dtype=object)[codes]
+        return listed
     values: NDArray[Any] = about["low"] + about["step"] * codes.astype(np.float64)
     values[codes == NOTHING], values[codes == PLUS], values[codes == MINUS] = np.nan, np.inf, -np.inf
     return values

@@ -85,7 +85,10 @@ def write_whole(path: str | Path, content: bytes) -> Path:
         handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
     except OSError as error:
         raise InputError(
-            "cannot be written", file=target, value=error.strerror, cure="name a file in a folder you can write to"
+            "cannot be written",
+            file=target,
+            value=error.strerror,
+            cure="name a file in a folder you can write to",
         ) from error
     try:
         with os.fdopen(handle, "wb") as stream:
@@ -95,7 +98,9 @@ def write_whole(path: str | Path, content: bytes) -> Path:
         Path(temporary).chmod(0o666 & ~umask)
         Path(temporary).replace(target)
     except OSError as error:
-        raise InputError("cannot be written", file=target, value=error.strerror, cure="choose another path") from error
+        raise InputError(
+            "cannot be written", file=target, value=error.strerror, cure="choose another path"
+        ) from error
     finally:
         Path(temporary).unlink(missing_ok=True)
     return target

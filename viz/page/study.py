@@ -1,4 +1,4 @@
-"""The page of a study: where the rover is close to tipping, how margins and loads spread, the worst cases in 3D."""
+"""A study's page: where the rover is close to tipping, how margins and loads spread, the worst in 3D."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from rover_pin.viz.page.html import page, write_whole
 from rover_pin.viz.page.pack import Pack
 from rover_pin.viz.page.raster import ground_raster
 from rover_pin.viz.page.robots import robot
-from rover_pin.viz.units import shown, title_of
+from rover_pin.viz.units import ranked, shown, title_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -24,14 +24,15 @@ if TYPE_CHECKING:
     from rover_pin.statics.stance import Stance
     from rover_pin.terrain import Terrain
 
-FIRST = ("tip", "polygon", "force_angle", "energy", "zmp", "friction", "torque", "clearance", "loads")
 POSE = ("x_m", "y_m", "z_m", "roll_rad", "pitch_rad", "yaw_rad")
 
 
 def measures_of(dataset: xr.Dataset) -> list[str]:
     """The measures in a study's dataset: one number a case, and which way is better; tipping first."""
-    found = [str(name) for name, v in dataset.data_vars.items() if v.dims == ("case",) and "better" in v.attrs]
-    return sorted(found, key=lambda name: (FIRST.index(name) if name in FIRST else len(FIRST), name))
+    found = [
+        str(name) for name, v in dataset.data_vars.items() if v.dims == ("case",) and "better" in v.attrs
+    ]
+    return ranked(found)
 
 
 def main_measure(dataset: xr.Dataset, measure: str | None = None) -> str:
@@ -45,7 +46,10 @@ def main_measure(dataset: xr.Dataset, measure: str | None = None) -> str:
         return found[0]
     if measure not in found:
         raise StudyError(
-            "the study has no such measure", element="measure", value=measure, cure=nearest(measure or "", found)
+            "the study has no such measure",
+            element="measure",
+            value=measure,
+            cure=nearest(measure or "", found),
         )
     return measure
 
@@ -113,7 +117,8 @@ def study_page(
         "about": {str(key): _text(value) for key, value in dataset.attrs.items()},
         "cases": int(dataset.sizes["case"]),
         "first": main_measure(dataset, measure),
-        "measures": [_about_measure(dataset, name) for name in measures_of(dataset)] + _load_measures(dataset),
+        "measures": [_about_measure(dataset, name) for name in measures_of(dataset)]
+        + _load_measures(dataset),
         "wheels": [str(name) for name in dataset["wheel"].values],
         "joints": [str(name) for name in dataset["joint"].values],
         "varied": _varied(dataset),
@@ -143,7 +148,10 @@ def page_columns(dataset: xr.Dataset) -> dict[str, Column]:
     for k, wheel in enumerate(dataset["wheel"].values):
         columns[f"load_n/{wheel}"] = numbers(loads[:, k])
     if loads.shape[1]:
-        columns["lightest_wheel"], columns["heaviest_wheel"] = numbers(loads.min(axis=1)), numbers(loads.max(axis=1))
+        columns["lightest_wheel"], columns["heaviest_wheel"] = (
+            numbers(loads.min(axis=1)),
+            numbers(loads.max(axis=1)),
+        )
     for k, joint in enumerate(dataset["joint"].values):
         columns[f"joint_rad/{joint}"] = numbers(dataset["joint_rad"].values[:, k])
     for name in _varied(dataset):
@@ -157,7 +165,10 @@ def _varied(dataset: xr.Dataset) -> list[str]:
     return [
         str(name)
         for name, values in dataset.data_vars.items()
-        if values.dims == ("case",) and values.attrs.get("varied") and name not in POSE and "better" not in values.attrs
+        if values.dims == ("case",)
+        and values.attrs.get("varied")
+        and name not in POSE
+        and "better" not in values.attrs
     ]
 
 
@@ -177,7 +188,10 @@ def _load_measures(dataset: xr.Dataset) -> list[dict[str, Any]]:
     if not dataset.sizes.get("wheel"):
         return []
     pairs = (("lightest_wheel", "Lightest wheel", "high"), ("heaviest_wheel", "Heaviest wheel", "low"))
-    return [{"name": name, "title": title, "unit": "N", "factor": 1.0, "better": way} for name, title, way in pairs]
+    return [
+        {"name": name, "title": title, "unit": "N", "factor": 1.0, "better": way}
+        for name, title, way in pairs
+    ]
 
 
 def _variants(

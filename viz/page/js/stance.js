@@ -52,7 +52,7 @@ function draw(stance, segments) {
   view.node("ground").object.traverse((thing) => (thing.castShadow = false));
   view.follow(stance.target, stance.yaw, stance.span);
   const wide = () => window.innerWidth > 900;
-  const look = (name) => view.look(name, 2.4, wide() ? -0.09 : 0);
+  const look = (name) => view.look(name, 2.05, wide() ? -0.09 : 0);
   view.buttons(byId("views"), look);
   look("Iso");
   keepCamera(view);
