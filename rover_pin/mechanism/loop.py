@@ -21,7 +21,7 @@ _SIZES: dict[str, int] = {"ball": 3, "hinge": 5, "planar": 2, "weld": 6, "distan
 
 
 class LoopSpec(BaseModel):
-    """`{name: left_link, frames: [bar_l, rocker_l], type: ball}`; also `axis`, `length`, `at`, `tolerance`."""
+    """`{name: left_link, frames: [bar_l, rocker_l], type: ball}`; also axis, length, at, tolerance."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -44,6 +44,8 @@ class LoopSpec(BaseModel):
             raise ValueError("`axis` is zero")
         if self.type == "distance" and self.length is None and self.at is None:
             raise ValueError("a distance loop needs `length` (or `at: zero`)")
+        if self.length is not None and self.at is not None:
+            raise ValueError("`length` and `at: zero` both say the distance: give one")
         if self.type != "distance" and self.length is not None:
             raise ValueError(f"a {self.type} loop has no `length`")
         return self
@@ -71,7 +73,7 @@ class LoopSpec(BaseModel):
         length = self.length or 0.0
         if self.at == "zero":
             zero = Kinematics(model, model.createData(), np.zeros(model.nv))
-            if self.type == "distance" and self.length is None:
+            if self.type == "distance":
                 length = float(np.linalg.norm(second.origin(zero) - first.origin(zero)))
             else:
                 second = _carried(first, second, zero)
@@ -86,8 +88,9 @@ class Loop:
 
     Rows: ball e (world axes); planar t1.e and t2.e, with t1, t2 across the axis in the first frame, so that a
     linkage that moves in a plane is closed without redundant rows; hinge the ball's rows and a.t1', a.t2'
-    with a the axis in the first frame and t1', t2' across the same axis in the second; weld e and the skew
-    part of R1' R2; distance |e| - length.
+    with a the axis in the first frame and t1', t2' across the same axis in the second; weld e and twice the
+    vector part of the quaternion of R1' R2 (2 sin(angle / 2) along the axis, so that a half turn is open);
+    distance |e| - length.
 
     Attributes:
         name: as in the sidecar.
@@ -124,8 +127,12 @@ class Loop:
         if self.type == "hinge":
             axis = self.first.axes(at) @ self.across[:, 2]
             return np.concatenate([apart, (self.second.axes(at) @ self.across[:, :2]).T @ axis])
-        relative = self.first.axes(at).T @ self.second.axes(at)
-        return np.concatenate([apart, _vee(relative - relative.T) / 2])
+        return np.concatenate([apart, 2.0 * self._turned(at)[1:]])
+
+    def _turned(self, at: Kinematics) -> Array:
+        """(4,) quaternion (w >= 0, x, y, z) of the second frame in the first."""
+        x, y, z, w = pin.Quaternion(self.first.axes(at).T @ self.second.axes(at)).coeffs()
+        return np.array([w, x, y, z]) if w >= 0.0 else -np.array([w, x, y, z])
 
     def jacobian(self, at: Kinematics) -> Array:
         """(size, nv)."""
@@ -146,10 +153,10 @@ class Loop:
             axis = self.first.axes(at) @ self.across[:, 2]
             sides = (self.second.axes(at) @ self.across[:, :2]).T
             return np.vstack([moving, np.cross(sides, axis) @ turn])
-        second = self.second.axes(at)
-        relative = self.first.axes(at).T @ second
-        lever = (np.trace(relative) * np.eye(3) - relative.T) / 2
-        return np.vstack([moving, lever @ second.T @ turn])
+        w, x, y, z = self._turned(at)
+        # quaternion' = quaternion * (0, angular velocity in the second frame) / 2
+        lever = np.array([[w, -z, y], [z, w, -x], [-y, x, w]])
+        return np.vstack([moving, lever @ self.second.axes(at).T @ turn])
 
 
 def _carried(first: BodyFrame, second: BodyFrame, zero: Kinematics) -> BodyFrame:
@@ -166,7 +173,3 @@ def _across(axis: Array) -> Array:
     first = np.cross(axis, helper)
     first /= np.linalg.norm(first)
     return np.column_stack([first, np.cross(axis, first), axis])
-
-
-def _vee(skew: Array) -> Array:
-    return np.array([skew[2, 1], skew[0, 2], skew[1, 0]])

@@ -64,7 +64,8 @@ def reduce_coordinates(
     offset = np.zeros(nv)
     for column, value in held.items():
         offset[column] = value
-    rows = np.array([coupling.row[open_columns] for coupling in couplings]).reshape(-1, len(open_columns))
+    rows = np.array([coupling.row[open_columns] for coupling in couplings])
+    rows = rows.reshape(len(couplings), len(open_columns))
     right = np.array([coupling.offset - coupling.row @ offset for coupling in couplings])
     owners = list(couplings)
     pivots: list[tuple[int, int]] = []
