@@ -191,7 +191,7 @@ def _root(n: int, power: int) -> int:
     """The largest k >= 1 with k**power <= n."""
     if power == 0:
         return 1
-    k = max(1, round(float(n) ** (1.0 / power)))
+    k: int = max(1, round(float(n) ** (1.0 / power)))
     while k > 1 and k**power > n:
         k -= 1
     return k

@@ -121,9 +121,9 @@ def _asked(cases: Cases, taken: set[str]) -> dict[str, Any]:
     return out
 
 
-def _words(words: Any) -> NDArray[np.object_]:
+def _words(words: Any) -> NDArray[np.str_]:
     """Words as xarray reads them back from a file."""
-    return np.array([str(word) for word in words], dtype=object)
+    return np.array([str(word) for word in words], dtype=np.str_)
 
 
 def _attributes(study: Study) -> dict[str, Any]:

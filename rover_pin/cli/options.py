@@ -14,6 +14,9 @@ from rover_pin.errors import InputError
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
 
+RESERVED = {"name_or_path", "sidecar", "packages", "skip_missing_includes"}
+"""Keywords of `rover_pin.load` that are no parameters."""
+
 Robot = Annotated[str, typer.Argument(help="Bundled name, or path of a URDF or xacro.", metavar="ROBOT")]
 Sidecar = Annotated[
     Path | None, typer.Option(help="The rover.yaml beside the URDF.", metavar="FILE", show_default=False)
@@ -113,10 +116,15 @@ def load_rover(
     """
     from rover_pin import load
 
+    values = numbers(parameters, "--param")
+    for name in RESERVED & set(values):
+        raise InputError(
+            "no parameter can have that name", element=f"--param {name}", cure="see rover-pin info"
+        )
     return load(
         robot,
         sidecar=sidecar,
         packages=dict(pairs(packages, "--package")) or None,
         skip_missing_includes=skip_missing_includes,
-        **numbers(parameters, "--param"),
+        **values,
     )

@@ -12,9 +12,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rover_pin.cli.options import Json
+from rover_pin.errors import InputError
 
 if TYPE_CHECKING:
-    from rover_pin.analysis.study import Progress
+    import xarray as xr
+
+    from rover_pin.analysis.study import Progress, Study
 
 INTERRUPTED = 130
 
@@ -44,6 +47,10 @@ def study(
     path = out or Path(f"{spec.stem if spec else 'study'}.nc")
     check_outputs(path, html)
     asked = Study.default() if spec is None else Study.from_file(spec)
+    if html is not None and not asked.plan.job.layout.margins:
+        raise InputError(
+            "a page needs a measure", element="--html", cure="ask for tip, say, in the study's measures"
+        )
     started = time.perf_counter()
     try:
         with _bar() as progress:
@@ -60,9 +67,7 @@ def study(
         return INTERRUPTED
     seconds = time.perf_counter() - started
     if html is not None:
-        from rover_pin import viz
-
-        viz.save_study_page(data, html)
+        _save_page(asked, data, html)
     if json:
         print_json(study_object(data, path, html, seconds))
     else:
@@ -71,6 +76,15 @@ def study(
         if written is not None:
             aside(f"wrote {written}")
     return 0 if bool((data["status"] == "settled").any()) else 1
+
+
+def _save_page(asked: Study, data: xr.Dataset, html: Path) -> None:
+    """The study's page, its worst cases settled once more for their contacts."""
+    from rover_pin import viz
+
+    stances = {case: asked.stance(case) for case in viz.worst_cases(data)}
+    ready = asked.plan
+    viz.save_study_page(data, html, rover=ready.rover, terrain=ready.job.terrain, stances=stances)
 
 
 @contextmanager
