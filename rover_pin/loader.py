@@ -91,7 +91,7 @@ def _from_files(
     spec, sidecar_text = (Sidecar(), None) if sidecar_path is None else load_sidecar(sidecar_path)
     values = parameter_values(spec.parameters, parameters)
     notes = Notes()
-    text = expand(path, values, Packages(path, packages), notes, skip)
+    text = expand(path, values, Packages(path, packages), notes, skip, sidecar_path)
     return assemble(
         Recipe(bundled, path, text, sidecar_path, sidecar_text, values, packages, skip, notes=notes.lines())
     )

@@ -39,6 +39,7 @@ def expand(
     packages: Packages,
     notes: Notes,
     skip_missing_includes: bool = False,
+    declared_in: object = None,
 ) -> str:
     """The URDF text of a file.
 
@@ -51,6 +52,7 @@ def expand(
         packages: where `$(find package)` looks.
         notes: told of skipped includes and of xacro's warnings.
         skip_missing_includes: leave out includes whose file or package is not there.
+        declared_in: the file that declares the arguments, named in errors.
 
     Raises:
         DescriptionError: the file cannot be read, or xacro refuses it, or nothing comes out.
@@ -63,10 +65,10 @@ def expand(
             f"cannot be read: {error}", file=path, cure="give a URDF or xacro text file"
         ) from error
     if path.suffix != ".xacro" and not _TAG.search(text):
-        _refuse_undeclared(path, values, set(), xacro=False)
+        _refuse_undeclared(path, values, None, declared_in)
         return text
     expanded, asked = _run(path, text, values, packages, notes, skip_missing_includes)
-    _refuse_undeclared(path, values, asked, xacro=True)
+    _refuse_undeclared(path, values, asked, declared_in)
     if "<link" not in expanded:
         macros = _MACRO.findall(text)
         cure = (
@@ -149,14 +151,17 @@ def _around_xacro(packages: Packages, notes: Notes, skip: bool) -> Iterator[None
         substitution_args._eval_find, xacro.process_include = usual_find, usual_include
 
 
-def _refuse_undeclared(path: Path, values: Mapping[str, float], asked: set[str], xacro: bool) -> None:
+def _refuse_undeclared(
+    path: Path, values: Mapping[str, float], asked: set[str] | None, declared_in: object
+) -> None:
+    """`asked`: the arguments that xacro asked for, None for plain URDF."""
     for name in values:
-        if name not in asked:
-            what = (
-                f"no <xacro:arg> of that name in {path.name}"
-                if xacro
-                else f"{path.name} is plain URDF without arguments"
-            )
-            raise SidecarError(
-                what, element=f"parameters.{name}", cure=nearest(name, asked) if asked else "remove it"
-            )
+        if asked is not None and name in asked:
+            continue
+        plain = f"{path.name} is plain URDF without arguments"
+        raise SidecarError(
+            plain if asked is None else f"no <xacro:arg> of that name in {path.name}",
+            file=declared_in,
+            element=f"parameters.{name}",
+            cure=nearest(name, asked) if asked else "remove it",
+        )

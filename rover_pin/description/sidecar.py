@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, FiniteFloat, Tag
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, FiniteFloat, Tag, field_validator
 
 from rover_pin.description.parameters import ParameterSpec
 from rover_pin.description.reading import parse_yaml, validated
@@ -28,11 +28,11 @@ _GEPETTO = ("closed_loop", "type", "name_mot")
 
 def _spring_kind(value: Any) -> str:
     frames = "frames" in value if isinstance(value, dict) else hasattr(value, "frames")
-    return "frames" if frames else "joint"
+    return "<frames>" if frames else "<joint>"
 
 
 SpringEntry = Annotated[
-    Annotated[JointSpringSpec, Tag("joint")] | Annotated[FrameSpringSpec, Tag("frames")],
+    Annotated[JointSpringSpec, Tag("<joint>")] | Annotated[FrameSpringSpec, Tag("<frames>")],
     Discriminator(_spring_kind),
 ]
 
@@ -57,7 +57,14 @@ class Sidecar(BaseModel):
     inertials: dict[str, InertialSpec] = {}
     postures: dict[str, dict[str, FiniteFloat]] = {}
     parameters: dict[str, ParameterSpec] = {}
-    tracks: tuple[()] = ()
+    tracks: tuple[dict[str, Any], ...] = ()
+
+    @field_validator("tracks")
+    @classmethod
+    def _none(cls, value: tuple[dict[str, Any], ...]) -> tuple[dict[str, Any], ...]:
+        if value:
+            raise ValueError("this version builds no tracks; leave the list empty")
+        return value
 
 
 @functools.lru_cache(maxsize=64)

@@ -8,7 +8,9 @@ UNIT = '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
 
 
 def link(name, mass=1.0, extra="", com="0 0 0"):
-    inertial = "" if mass is None else f'<inertial><origin xyz="{com}"/><mass value="{mass}"/>{UNIT}</inertial>'
+    inertial = (
+        "" if mass is None else f'<inertial><origin xyz="{com}"/><mass value="{mass}"/>{UNIT}</inertial>'
+    )
     return f'<link name="{name}">{inertial}{extra}</link>'
 
 

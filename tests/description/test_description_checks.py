@@ -8,7 +8,10 @@ import rover_pin as rp
 def test_no_such_file(tmp_path):
     with pytest.raises(rp.errors.DescriptionError) as caught:
         rp.load(tmp_path / "no.urdf")
-    assert str(caught.value) == f"{tmp_path}/no.urdf: no such file; check the path; a bundled robot goes by its bare name"
+    assert (
+        str(caught.value)
+        == f"{tmp_path}/no.urdf: no such file; check the path; a bundled robot goes by its bare name"
+    )
 
 
 def test_unknown_bundled_name():
@@ -23,7 +26,9 @@ def test_unknown_bundled_name():
 def test_not_xml(tmp_path):
     path = tmp_path / "a.urdf"
     path.write_text("<robot><link></robot>")
-    with pytest.raises(rp.errors.DescriptionError, match=r"a\.urdf: not XML: Opening and ending tag mismatch.*mend it"):
+    with pytest.raises(
+        rp.errors.DescriptionError, match=r"a\.urdf: not XML: Opening and ending tag mismatch.*mend it"
+    ):
         rp.load(path)
 
 
@@ -50,7 +55,8 @@ def test_entities_do_not_read_files(tmp_path):
     secret.write_text("hidden")
     path = tmp_path / "a.urdf"
     path.write_text(
-        f'<!DOCTYPE robot [<!ENTITY x SYSTEM "file://{secret}">]><robot name="a"><link name="b">&x;</link></robot>'
+        f'<!DOCTYPE robot [<!ENTITY x SYSTEM "file://{secret}">]><robot '
+        f'name="a"><link name="b">&x;</link></robot>'
     )
     with pytest.raises(rp.errors.DescriptionError) as caught:
         rp.load(path)
@@ -72,17 +78,23 @@ def test_circle(make):
         make.joint("y", "b", "a"),
     )
     assert said == (
-        "bot.urdf: robot: links in a circle: a, b; open it at one joint and close the loop in the sidecar under `loops`"
+        "bot.urdf: robot: links in a circle: a, b; open it at one joint and "
+        "close the loop in the sidecar under `loops`"
     )
 
 
 def test_two_parents(make):
     said = make.refused(
-        make.link("a"), make.link("b"), make.link("c"), make.joint("x", "a", "b"), make.joint("y", "a", "c"),
+        make.link("a"),
+        make.link("b"),
+        make.link("c"),
+        make.joint("x", "a", "b"),
+        make.joint("y", "a", "c"),
         make.joint("z", "c", "b"),
     )
     assert said == (
-        "bot.urdf: link b: child of two joints, x and z; keep one and close the loop in the sidecar under `loops`"
+        "bot.urdf: link b: child of two joints, x and z; keep one and close "
+        "the loop in the sidecar under `loops`"
     )
 
 
@@ -142,7 +154,9 @@ def test_mass_not_finite(make, text):
 
 def test_inertia_not_finite(make):
     body = '<link name="a"><inertial><mass value="1"/><inertia ixx="nan"/></inertial></link>'
-    assert make.refused(body) == "bot.urdf: link a: <inertia ixx> is not finite (got 'nan'); give finite numbers"
+    assert (
+        make.refused(body) == "bot.urdf: link a: <inertia ixx> is not finite (got 'nan'); give finite numbers"
+    )
 
 
 def test_not_a_number(make):
@@ -158,19 +172,24 @@ def test_wrong_count(make):
 
 
 def test_negative_mass(make):
-    assert make.refused(make.link("a", mass=-2)) == "bot.urdf: link a: negative mass (got '-2'); give its mass in kg"
+    assert (
+        make.refused(make.link("a", mass=-2))
+        == "bot.urdf: link a: negative mass (got '-2'); give its mass in kg"
+    )
 
 
 def test_negative_inertia(make):
     body = '<link name="a"><inertial><mass value="1"/><inertia ixx="-1" iyy="1" izz="1"/></inertial></link>'
     assert make.refused(body) == (
-        "bot.urdf: link a: negative moment of inertia ixx (got '-1'); give moments about the centre of mass in kg m2"
+        "bot.urdf: link a: negative moment of inertia ixx (got '-1'); give "
+        "moments about the centre of mass in kg m2"
     )
 
 
 def test_no_mass_at_all(make):
     assert make.refused(make.link("a", mass=0), make.link("b", mass=None), make.joint("j", "a", "b")) == (
-        "bot.urdf: the robot has no mass; give its links <inertial>, or masses under `inertials` in the sidecar"
+        "bot.urdf: the robot has no mass; give its links <inertial>, or masses "
+        "under `inertials` in the sidecar"
     )
 
 
@@ -181,7 +200,11 @@ def test_lower_above_upper(make):
 
 
 def test_negative_effort(make):
-    body = [make.link("a"), make.link("b"), make.joint("j", "a", "b", "continuous", extra='<limit effort="-1"/>')]
+    body = [
+        make.link("a"),
+        make.link("b"),
+        make.joint("j", "a", "b", "continuous", extra='<limit effort="-1"/>'),
+    ]
     assert make.refused(*body) == "bot.urdf: joint j: negative effort limit (got '-1'); give its size"
 
 

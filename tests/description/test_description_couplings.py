@@ -8,7 +8,10 @@ def chain(make, *mimics, limits=("-1 1", "-1 1", "-1 1")):
     extra = [*mimics, "", "", ""]
     parts = [make.link("base")]
     for i, name in enumerate("abc"):
-        parts += [make.link(f"l{name}"), make.joint(name, "base", f"l{name}", extra=extra[i], limits=limits[i])]
+        parts += [
+            make.link(f"l{name}"),
+            make.joint(name, "base", f"l{name}", extra=extra[i], limits=limits[i]),
+        ]
     return parts
 
 
@@ -34,7 +37,8 @@ def test_mimic_of_a_fixed_joint(make):
         *chain(make, '<mimic joint="f"/>'), make.link("t"), make.joint("f", "base", "t", "fixed")
     )
     assert said == (
-        "bot.urdf: joint a: it mimics a joint that does not move (got 'f'); drop the <mimic> or free that joint"
+        "bot.urdf: joint a: it mimics a joint that does not move (got 'f'); "
+        "drop the <mimic> or free that joint"
     )
 
 

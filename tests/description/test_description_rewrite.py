@@ -7,7 +7,9 @@ import pytest
 
 def test_continuous_is_unbounded_and_says_what_it_ignored(make):
     body = [make.link("a"), make.link("b")]
-    rover = make.load(*body, make.joint("j", "a", "b", "continuous", extra='<limit lower="-1" upper="1" effort="3"/>'))
+    rover = make.load(
+        *body, make.joint("j", "a", "b", "continuous", extra='<limit lower="-1" upper="1" effort="3"/>')
+    )
     assert rover.model.nq == rover.model.nv == 7
     assert rover.lower[6] == -np.inf
     assert rover.upper[6] == np.inf
@@ -43,20 +45,30 @@ def test_huge_limits_are_none(make):
 
 
 def test_zero_effort_is_a_placeholder(make):
-    body = [make.link("a"), make.link("b"), make.joint("j", "a", "b", "continuous", extra='<limit effort="0"/>')]
+    body = [
+        make.link("a"),
+        make.link("b"),
+        make.joint("j", "a", "b", "continuous", extra='<limit effort="0"/>'),
+    ]
     assert make.load(*body).effort[6] == np.inf
 
 
 @pytest.mark.parametrize("kind", ["revolute", "prismatic"])
 def test_close_limits_lock_where_they_are(make, kind):
-    free = make.load(*make.pair(kind, xyz="0.1 0.2 0.3", axis="0 1 0"), make.link("tip"),
-                     make.joint("f", "arm", "tip", "fixed", xyz="1 0 0"))
+    free = make.load(
+        *make.pair(kind, xyz="0.1 0.2 0.3", axis="0 1 0"),
+        make.link("tip"),
+        make.joint("f", "arm", "tip", "fixed", xyz="1 0 0"),
+    )
     q = free.configuration({"j": 0.4})
     data = free.model.createData()
     pin.framesForwardKinematics(free.model, data, q)
     expected = data.oMf[free.model.getFrameId("tip")]
-    held = make.load(*make.pair(kind, xyz="0.1 0.2 0.3", axis="0 1 0", limits="0.4 0.4000001"), make.link("tip"),
-                     make.joint("f", "arm", "tip", "fixed", xyz="1 0 0"))
+    held = make.load(
+        *make.pair(kind, xyz="0.1 0.2 0.3", axis="0 1 0", limits="0.4 0.4000001"),
+        make.link("tip"),
+        make.joint("f", "arm", "tip", "fixed", xyz="1 0 0"),
+    )
     assert held.joints == ()
     assert "joint j: limits 0.4, 0.4 lock it there; taken as fixed" in held.notes
     data = held.model.createData()
@@ -73,15 +85,21 @@ def test_axis_is_made_unit(make):
 
 
 def test_missing_axis_is_x_and_noted(make):
-    body = [make.link("a"), make.link("b"),
-            '<joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>']
+    body = [
+        make.link("a"),
+        make.link("b"),
+        '<joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>',
+    ]
     assert "joint j: no axis stated, x taken as URDF says" in make.load(*body).notes
 
 
 def test_floating_root_is_the_base(make):
     rover = make.load(
-        make.link("world", mass=None), make.link("body", mass=3), make.link("arm"),
-        make.joint("free", "world", "body", "floating", xyz="9 9 9"), make.joint("j", "body", "arm"),
+        make.link("world", mass=None),
+        make.link("body", mass=3),
+        make.link("arm"),
+        make.joint("free", "world", "body", "floating", xyz="9 9 9"),
+        make.joint("j", "body", "arm"),
     )
     assert rover.root == "body"
     assert rover.mass == pytest.approx(4.0)
@@ -91,28 +109,40 @@ def test_floating_root_is_the_base(make):
 
 def test_floating_inside_is_refused(make):
     said = make.refused(
-        make.link("a"), make.link("b"), make.link("c"), make.joint("x", "a", "b"), make.joint("y", "b", "c", "floating")
+        make.link("a"),
+        make.link("b"),
+        make.link("c"),
+        make.joint("x", "a", "b"),
+        make.joint("y", "b", "c", "floating"),
     )
     assert said == (
-        "bot.urdf: joint y: a floating joint inside the robot; only the base floats; fix it, or give it an axis"
+        "bot.urdf: joint y: a floating joint inside the robot; only the base "
+        "floats; fix it, or give it an axis"
     )
 
 
 def test_second_floating_is_refused(make):
     said = make.refused(
-        make.link("a", mass=None), make.link("b"), make.link("c"),
-        make.joint("x", "a", "b", "floating"), make.joint("y", "b", "c", "floating"),
+        make.link("a", mass=None),
+        make.link("b"),
+        make.link("c"),
+        make.joint("x", "a", "b", "floating"),
+        make.joint("y", "b", "c", "floating"),
     )
     assert said.startswith("bot.urdf: joint y: a floating joint inside the robot")
 
 
 def test_floating_beside_another_joint_is_refused(make):
     said = make.refused(
-        make.link("a"), make.link("b"), make.link("c"),
-        make.joint("x", "a", "b", "floating"), make.joint("y", "a", "c"),
+        make.link("a"),
+        make.link("b"),
+        make.link("c"),
+        make.joint("x", "a", "b", "floating"),
+        make.joint("y", "a", "c"),
     )
     assert said == (
-        "bot.urdf: joint x: a floating joint, but link a above it carries other joints; hang nothing else on that link"
+        "bot.urdf: joint x: a floating joint, but link a above it carries "
+        "other joints; hang nothing else on that link"
     )
 
 
@@ -138,7 +168,8 @@ def test_free_of_a_moving_joint(make):
 
 def test_inertials_override(make):
     rover = make.load(
-        make.link("base", mass=None), sidecar="inertials: {base: {mass: 12, com: [1, 2, 3], inertia: [1, 2, 3, 0, 0, 0]}}"
+        make.link("base", mass=None),
+        sidecar="inertials: {base: {mass: 12, com: [1, 2, 3], inertia: [1, 2, 3, 0, 0, 0]}}",
     )
     assert rover.mass == pytest.approx(12)
     np.testing.assert_allclose(rover.model.inertias[1].lever, [1, 2, 3])
@@ -158,8 +189,13 @@ def test_mass_without_moments_is_kept(make):
 
 def test_missing_and_zero_masses_are_noted(make):
     rover = make.load(
-        make.link("a"), make.link("b", mass=None), make.link("c", mass=0), make.link("tool", mass=None),
-        make.joint("x", "a", "b"), make.joint("y", "b", "c"), make.joint("z", "c", "tool", "fixed"),
+        make.link("a"),
+        make.link("b", mass=None),
+        make.link("c", mass=0),
+        make.link("tool", mass=None),
+        make.joint("x", "a", "b"),
+        make.joint("y", "b", "c"),
+        make.joint("z", "c", "tool", "fixed"),
     )
     assert "link b has no inertial: no mass" in rover.notes
     assert "link c has zero mass" in rover.notes
@@ -187,9 +223,13 @@ def test_up_is_taken_to_z_by_the_shortest_rotation(make, up):
 def test_gazebo_loops_and_damping_are_noted(make):
     rover = make.load(
         *make.pair(extra='<dynamics damping="0.1"/>'),
-        '<gazebo><joint name="close" type="revolute"><parent>arm</parent><child>base</child></joint></gazebo>',
+        '<gazebo><joint name="close" '
+        'type="revolute"><parent>arm</parent><child>base</child></joint></gazebo>',
     )
-    assert "loop close (arm to base) stands only in a <gazebo> tag: dropped; declare it under `loops`" in rover.notes
+    assert (
+        "loop close (arm to base) stands only in a <gazebo> tag: dropped; declare it under `loops`"
+        in rover.notes
+    )
     assert "joint j: damping and friction are not used" in rover.notes
 
 
@@ -197,6 +237,7 @@ def test_undeclared_wheels_are_noted(make):
     rover = make.load(make.link("a"), make.link("wheel_l"), make.joint("j", "a", "wheel_l", "continuous"))
     assert "no wheels nor contacts are declared: nothing touches the ground" in rover.notes
     assert (
-        "link wheel_l looks like a wheel and is not declared; list it under `wheels` in the sidecar" in rover.notes
+        "link wheel_l looks like a wheel and is not declared; list it under `wheels` in the sidecar"
+        in rover.notes
     )
     assert "no sidecar: suspension, wheels and actuation are only what the URDF says" in rover.notes
