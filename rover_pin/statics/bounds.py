@@ -33,7 +33,7 @@ def load_bounds(stance: Stance, friction: float | None = None) -> dict[str, Inte
         InputError: the stance is not settled, or the friction is not above 0.
         SolverError: a program had no answer that could be proven.
 
-    Cost: two cone programs a wheel, 3 ms with six wheels.
+    Cost: two cone programs a wheel, 4 ms with six wheels.
     """
     return problem_bounds(friction_problem(stance, friction))
 

@@ -57,7 +57,7 @@ def least_friction(space: ForceSpace, base: Array, start: float = 0.0) -> LeastF
         base: (k,) friction that is there already.
         start: a guess of e.
 
-    Cost: about 10 programs of 0.25 ms with six wheels.
+    Cost: about 12 programs of 0.2 ms with six wheels.
     """
     nothing = np.full(space.particular.size, np.nan)
     if not space.consistent or space.contacts == 0:

@@ -10,7 +10,7 @@ from rover_pin.numerics import Array
 from rover_pin.statics.cone_program import ConeProgram
 from rover_pin.statics.force_space import ForceSpace
 
-_STEPS = 50
+_STEPS = 100
 _CLOSE = 1e-9
 
 
@@ -21,7 +21,8 @@ def traction_ratio(
 
     Where that leaves a choice (lateral forces nearly always, k where wheels are steered apart) it takes
     the least sum of squares of all contact forces. The product k normal_i is linearised about the last
-    iterate and the quadratic program solved again until it stays: Newton's method on the equilibrium.
+    iterate and the quadratic program solved again until it stays: Newton's method on the
+    equilibrium where that determines k (3 to 6 steps), slower where k is a choice.
 
     Args:
         space: the forces in equilibrium, units of the weight.

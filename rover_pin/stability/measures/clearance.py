@@ -45,4 +45,4 @@ def missing(rover: Rover) -> str:
     return "" if rover.belly else f"{rover.name} declares no belly points"
 
 
-MEASURE = Measure("clearance", "m", "high", 0.05, evaluate, missing)
+MEASURE = Measure("clearance", "m", "high", 0.12, evaluate, missing)

@@ -56,4 +56,4 @@ def evaluate(standing: Standing) -> Margin:
     return replace(margin, details={"energy_j": margin.value * standing.stance.weight})
 
 
-MEASURE = Measure("energy", "m", "high", 0.02, evaluate)
+MEASURE = Measure("energy", "m", "high", 0.01, evaluate)

@@ -53,4 +53,4 @@ def evaluate(standing: Standing) -> Margin:
     return MEASURE.on_polygon(standing, lambda starts, ends: force_angles(starts, ends, com, weight))
 
 
-MEASURE = Measure("force_angle", "N m", "high", 0.02, evaluate)
+MEASURE = Measure("force_angle", "N m", "high", 0.01, evaluate)

@@ -17,6 +17,8 @@ def evaluate(standing: Standing) -> Margin:
     largest d with |tangential_i| <= (mu_i - d) normal_i. Negative where friction does not hold the rover.
     Edges: what each contact's friction exceeds its |tangential| / normal by, in the forces that attain it.
     Details: `least` (the largest ratio in those forces; with one friction for all, mu_least).
+
+    Cost: 3 ms a stance with six wheels (about 12 cone programs).
     """
     forces = smallest_friction(standing.problem)
     if not np.isfinite(forces.friction):
@@ -28,4 +30,4 @@ def evaluate(standing: Standing) -> Margin:
     return MEASURE.margin(edges, note=f"needs friction {least:.6g}", least=least)
 
 
-MEASURE = Measure("friction", "-", "high", 3.5, evaluate)
+MEASURE = Measure("friction", "-", "high", 3.0, evaluate)

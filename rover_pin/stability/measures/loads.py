@@ -20,8 +20,10 @@ def evaluate(standing: Standing) -> Margin:
         return MEASURE.closed("no wheel carries anything")
     least, largest = min(loads.values()), max(loads.values())
     spread = math.sqrt(math.fsum((load - mean) ** 2 for load in loads.values()) / len(loads))
+    more = standing.stance.redundant
     return MEASURE.margin(
         {name: load / mean for name, load in loads.items()},
+        note=f"{more} more supports than equilibrium determines: loads of least squares" if more else "",
         range_n=largest - least,
         max_over_mean=largest / mean,
         std_over_mean=spread / mean,

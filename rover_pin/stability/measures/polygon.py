@@ -36,4 +36,4 @@ def evaluate(standing: Standing) -> Margin:
     return MEASURE.on_polygon(standing, lambda starts, ends: edge_distances(starts, ends, com))
 
 
-MEASURE = Measure("polygon", "m", "high", 0.02, evaluate)
+MEASURE = Measure("polygon", "m", "high", 0.01, evaluate)

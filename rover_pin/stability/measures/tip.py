@@ -40,4 +40,4 @@ def evaluate(standing: Standing) -> Margin:
     return MEASURE.on_polygon(standing, lambda starts, ends: tip_angles(starts, ends, com))
 
 
-MEASURE = Measure("tip", "rad", "high", 0.02, evaluate)
+MEASURE = Measure("tip", "rad", "high", 0.01, evaluate)

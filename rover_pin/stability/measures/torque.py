@@ -12,6 +12,8 @@ def evaluate(standing: Standing) -> Margin:
 
     Edges: each driven wheel's |torque| in the forces that attain it. Inf where friction cannot hold the
     rover. Details: `friction` (largest ratio those forces use).
+
+    Cost: 1.7 ms a stance with six wheels, 0.8 beside `friction`.
     """
     problem = standing.problem
     driven = [w for w in dict.fromkeys(c.wheel for c in problem.contacts) if w in problem.driven]
@@ -23,4 +25,4 @@ def evaluate(standing: Standing) -> Margin:
     return MEASURE.margin({w: abs(forces.torques[w]) for w in driven}, friction=forces.friction)
 
 
-MEASURE = Measure("torque", "N m", "low", 1.0, evaluate)
+MEASURE = Measure("torque", "N m", "low", 1.7, evaluate)

@@ -45,4 +45,4 @@ def evaluate(standing: Standing) -> Margin:
     return MEASURE.on_polygon(standing, lambda starts, ends: edge_distances(starts, ends, point))
 
 
-MEASURE = Measure("zmp", "m", "high", 0.02, evaluate)
+MEASURE = Measure("zmp", "m", "high", 0.01, evaluate)
