@@ -15,10 +15,12 @@ from rover_pin.statics.ground import (
     support_name,
     tipped,
 )
+from rover_pin.statics.loads import share_loads
 from rover_pin.statics.newton import Landing, land
-from rover_pin.statics.problem import Problem
+from rover_pin.statics.problem import Integers, Problem
 from rover_pin.statics.relax import relax
 from rover_pin.statics.stance import Status
+from rover_pin.statics.verdict import free_motions, steadiness, undetermined_joints
 
 if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
@@ -100,16 +102,21 @@ def follow(
         if step > least:
             step = max(step / 4.0, least)
             continue
-        following = _let_go(problem, current, raised, landing)
+        before = terrain.blended(level, s)
+        following = _let_go(problem, current, before, raised, landing)
         if following.status is not Status.SETTLED:
             return following
         current, s = following, target
     return current
 
 
-def _let_go(problem: Problem, current: Footing, terrain: Terrain, landing: Landing | None) -> Footing:
-    """Supports change, or the branch ends: find out by letting the rover fall."""
-    before = problem.state(current.z, terrain)
+def _let_go(
+    problem: Problem, current: Footing, before: Terrain, terrain: Terrain, landing: Landing | None
+) -> Footing:
+    """Supports change, or the branch ends: find out by letting the rover fall.
+
+    A joint that nothing determined before may swing as far as it likes: that is no end of a branch.
+    """
     lost = None
     if landing is not None and np.min(landing.multipliers, initial=0.0) < NOT_NEGATIVE * problem.weight:
         lost = support_name(problem, landing.state, int(np.argmin(landing.multipliers)))
@@ -117,10 +124,26 @@ def _let_go(problem: Problem, current: Footing, terrain: Terrain, landing: Landi
     found = footing_of(problem, rest, terrain, lost or _most_moved(problem, current.z, rest.state.z))
     if found.status is not Status.SETTLED:
         return found
-    jump = float(np.max(np.abs(found.z - before.z) / problem.unit))
-    if jump > JUMP and lost is None:
+    moved = np.abs(found.z - current.z) / problem.unit
+    if np.max(moved) > JUMP and lost is None:
+        moved[_undetermined(problem, current, before)] = 0.0
+    if np.max(moved) > JUMP and lost is None:
         return tipped(problem, found.z, _most_moved(problem, current.z, found.z))
     return found
+
+
+def _undetermined(problem: Problem, current: Footing, terrain: Terrain) -> Integers:
+    """Free coordinates that nothing determines at a stance."""
+    if len(current.active) + len(current.loops) >= problem.n:
+        return np.zeros(0, dtype=np.int64)
+    state = problem.state(current.z, terrain, window=1e-5)
+    loads = share_loads(problem, state)
+    motions = free_motions(state, loads, problem)
+    if not motions.shape[1]:
+        return np.zeros(0, dtype=np.int64)
+    names = undetermined_joints(problem, motions, steadiness(problem, state, loads, terrain, motions))
+    columns = {problem.rover.column[name] for name in names}
+    return np.array([i for i, c in enumerate(problem.reduction.columns) if c in columns], dtype=np.int64)
 
 
 def _most_moved(problem: Problem, before: Array, after: Array) -> str | None:

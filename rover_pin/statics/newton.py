@@ -82,8 +82,9 @@ def land(
         return None
     determinate = held == n
     start = z
-    multipliers = np.zeros(len(active))
-    pulls = np.zeros(len(loops))
+    multipliers, pulls = np.zeros(len(active)), np.zeros(len(loops))
+    if not determinate:
+        multipliers, pulls = _first_guess(problem.state(z, terrain, window), active, loops, problem)
     size = -1
     for _ in range(iterations):
         state = problem.state(z, terrain, window)
@@ -104,8 +105,9 @@ def land(
                 pulling[loops] = pulls
                 stiffness = problem.stiffness(z, terrain, full, pulling, window)
                 matrix = np.block([[stiffness, -sides.T], [rows, np.zeros((held, held))]])
-                solution = _solve(matrix, np.concatenate([-state.load, -gaps]), problem)
-                step, forces = solution[:n], solution[n:]
+                now = np.concatenate([multipliers, pulls])
+                solution = _solve(matrix, np.concatenate([sides.T @ now - state.load, -gaps]), problem)
+                step, forces = solution[:n], now + solution[n:]
         except np.linalg.LinAlgError:
             return None
         if not (np.all(np.isfinite(step)) and np.all(np.isfinite(forces))):
@@ -119,6 +121,13 @@ def land(
             return _landing(z + step, state, active, multipliers, loops, pulls, rows, determinate)
         z = z + step
     return None
+
+
+def _first_guess(state: State, active: Integers, loops: Integers, problem: Problem) -> tuple[Array, Array]:
+    """Multipliers that come nearest to balance at the start."""
+    sides = np.vstack([state.force[active], state.closing[loops]]).T * problem.unit[:, None]
+    found = np.linalg.lstsq(sides, state.load * problem.unit, rcond=1e-9)[0]
+    return found[: len(active)], found[len(active) :]
 
 
 def _landing(
@@ -148,6 +157,6 @@ def _solve(matrix: Array, right: Array, problem: Problem) -> Array:
         [problem.unit / (problem.weight * problem.span), np.ones(len(right) - n) / problem.span]
     )
     scaled = matrix * scale[None, :] * weigh[:, None]
-    solution = np.linalg.lstsq(scaled, right * weigh, rcond=1e-11)[0]
+    solution = np.linalg.lstsq(scaled, right * weigh, rcond=1e-8)[0]
     answer: Array = solution * scale
     return answer

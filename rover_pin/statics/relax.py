@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.linalg import null_space
 
 from rover_pin.numerics import Array
 from rover_pin.statics.lcp import lemke
@@ -23,7 +24,14 @@ if TYPE_CHECKING:
 
 STEPS = 400
 DAMPING = 1e-3
+LEAST_DAMPING = 1e-6
+"""Shares of the damping at which a body falls its own span in a step under its weight.
+
+Steady motion is given longer steps; a reversal, shorter and stiffer ones.
+"""
 TRUST = 0.1
+RESTING = 1e-7
+"""Share of the span, or rad: what moves less rests, and Newton takes the last step."""
 UPRIGHT = np.radians(80.0)
 FAR = 2.0 * np.pi
 
@@ -58,26 +66,29 @@ def relax(problem: Problem, z: Array, terrain: Terrain, *, window: float, steps:
         steps: most steps.
     """
     start = z
-    trust = TRUST
-    kept = np.inf
+    trust, damping = TRUST, DAMPING
+    last = np.zeros(problem.n)
     multipliers = np.zeros(0)
     pulls = np.zeros(problem.size_of_closure)
     state = problem.state(z, terrain, window)
-    for count in range(steps):
+    for _ in range(steps):
         if len(multipliers) != len(state.slack):
             multipliers = np.zeros(len(state.slack))
-        answer = _step(problem, state, terrain, multipliers, pulls, window)
+        answer = _step(problem, state, terrain, multipliers, pulls, window, damping)
         if answer is None:
             return Rest(state, multipliers, pulls, "lost")
         step, multipliers, pulls = answer
         size = float(np.max(np.abs(step) / problem.unit)) if len(step) else 0.0
-        if size < 1e-10:
+        if size < RESTING:
             return Rest(state, multipliers, pulls, "rest")
-        if count and count % 40 == 0:
-            if size > 0.5 * kept:
-                trust *= 0.25
-            kept = size
-        z = state.z + step * min(1.0, trust / size)
+        move = step * min(1.0, trust / size)
+        turned = float((move / problem.unit) @ (last / problem.unit))
+        if turned < 0.0:
+            trust, damping = max(0.5 * trust, 1e-6), min(4.0 * damping, DAMPING)
+        elif turned > 0.0:
+            trust, damping = min(1.5 * trust, TRUST), max(0.25 * damping, LEAST_DAMPING)
+        last = move
+        z = state.z + move
         if problem.tilt(z) > UPRIGHT:
             return Rest(problem.state(z, terrain, window), multipliers, pulls, "over")
         travelled = np.abs(z - start) / problem.unit
@@ -89,17 +100,21 @@ def relax(problem: Problem, z: Array, terrain: Terrain, *, window: float, steps:
 
 
 def _step(
-    problem: Problem, state: State, terrain: Terrain, multipliers: Array, pulls: Array, window: float
+    problem: Problem,
+    state: State,
+    terrain: Terrain,
+    multipliers: Array,
+    pulls: Array,
+    window: float,
+    drag: float,
 ) -> tuple[Array, Array, Array] | None:
     """One implicit step: dz, N, loops' multipliers; None where the complementarity problem has no answer."""
     n = problem.n
-    damping = DAMPING * problem.gravity / problem.span * problem.mass_matrix(state.at)
+    damping = drag * problem.gravity / problem.span * problem.mass_matrix(state.at)
     damping += 1e-9 * np.diag(problem.weight * problem.span / problem.unit**2)
     matrix = damping
     if problem.elastics or np.count_nonzero(state.slack < 1e-3) + len(state.closure) < n:
-        stiffness = problem.stiffness(state.z, terrain, multipliers, pulls, window)
-        values, vectors = np.linalg.eigh((stiffness + stiffness.T) / 2.0)
-        matrix = damping + (vectors * np.clip(values, 0.0, None)) @ vectors.T
+        matrix = damping + _resistance(problem, state, terrain, multipliers, pulls, window)
     loops = independent_rows(state.closing)
     closing = state.closing[loops]
     size = len(loops)
@@ -124,3 +139,23 @@ def _step(
     pulled = np.zeros(len(state.closure))
     pulled[loops] = whole[n:]
     return whole[:n], found, pulled
+
+
+def _resistance(
+    problem: Problem, state: State, terrain: Terrain, multipliers: Array, pulls: Array, window: float
+) -> Array:
+    """(n, n) stiffness along the motions that the carrying supports leave free; what pushes on is left out.
+
+    The weight on its supports makes the whole matrix indefinite; only its part along free motions says
+    whether a motion is resisted.
+    """
+    unit = problem.unit
+    rows = np.vstack([state.motion[multipliers > 0.0], state.closing]) * unit
+    free = null_space(rows, rcond=1e-9) if len(rows) else np.eye(problem.n)
+    if free.shape[1] == 0:
+        return np.zeros((problem.n, problem.n))
+    stiffness = problem.stiffness(state.z, terrain, multipliers, pulls, window) * np.outer(unit, unit)
+    along = free.T @ (stiffness + stiffness.T) @ free / 2.0
+    values, vectors = np.linalg.eigh(along)
+    held: Array = free @ (vectors * np.clip(values, 0.0, None)) @ vectors.T @ free.T / np.outer(unit, unit)
+    return held
