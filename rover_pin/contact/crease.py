@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from rover_pin.contact.bilinear import touch_bilinear
 from rover_pin.contact.nearest import Seven, nearest, upright
 from rover_pin.numerics import Array, formula
 from rover_pin.terrain.surface import surface
@@ -148,6 +149,8 @@ def touch(
         if away(other, px, py, pz) < plain:
             found, plain = other, away(other, px, py, pz)
         return found[0], found[1], found[2], found[3], found[4], found[5], -plain
+    if kind == 2:
+        return touch_bilinear(kind, table, params, spacing, px, py, pz, x, y)
     if smooth and found[6] >= 0.0:
         return found
     other, _, done = cuts(kind, table, params, px, py, pz, found[0], found[1])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from rover_pin.contact.bilinear import nearest_node
 from rover_pin.contact.nearest import Seven
 from rover_pin.contact.place import Frame, distance, param_near
 from rover_pin.contact.plane import put
@@ -34,6 +35,12 @@ def probe(
                 d = distance(form, frame, cx, cy, cz, ring, x, y, h)
                 if d < least:
                     bx, by, bh, least = x, y, h, d
+        if kind == 2:
+            x, y, h, d = nearest_node(
+                table, params, form, frame, cx, cy, cz, ring, ring + tread + abs(out[0, 0]), cx, cy
+            )
+            if d < least:
+                bx, by, bh, least = x, y, h, d
         if least == far - 1e-9:
             break
         p = param_near(form, frame, cx, cy, cz, ring, bx, by, bh)

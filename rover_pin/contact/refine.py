@@ -180,7 +180,8 @@ def refine(
         good = pz <= surface(kind, table, params, px, py)[0]
         if good:
             return found
-    if good and not strayed and found[6] <= start:
+    good = good and found[6] <= start
+    if good and not strayed:
         return found
-    _, found = nested(kind, table, params, spacing, form, frame, cx, cy, cz, ring, width, p, x, y)
-    return found
+    _, other = nested(kind, table, params, spacing, form, frame, cx, cy, cz, ring, width, p, x, y)
+    return found if good and found[6] <= other[6] + 1e-9 else other
