@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,11 +18,12 @@ from rover_pin.contact import Foot, Wheel
 from rover_pin.description.geometry import BodyPoint, Geometry, Visual
 from rover_pin.description.model import BASE_DOF
 from rover_pin.description.recipe import Payload, Recipe
-from rover_pin.errors import InputError
+from rover_pin.info import describe, info
 from rover_pin.mechanism import Coupling, Loop, Spring
 from rover_pin.mechanism.frames import find_frame
 from rover_pin.mobility import Mobility, measure_mobility
 from rover_pin.numerics import Array, frozen
+from rover_pin.payload import put_on_base
 from rover_pin.posture import resolve_posture
 
 if TYPE_CHECKING:
@@ -41,10 +43,8 @@ class Rover:
         model: Pinocchio's model; nq == nv.
         root: the URDF's root link.
         joints: moving joints in the order of q.
-        lower, upper: (nv,) limits; +-inf where there are none.
-        effort, velocity: (nv,) limits of force and speed; inf where there are none.
-        actuated: driven joints.
-        lockable: passive joints that can be locked.
+        lower, upper, effort, velocity: (nv,) limits of place, force, speed; +-inf where there are none.
+        actuated: driven joints; lockable: passive ones that can be locked.
         couplings, loops, springs, tracks: what URDF cannot say.
         wheels, feet: what touches the ground.
         belly: points for clearance and grounding.
@@ -88,7 +88,7 @@ class Rover:
     @property
     def parameters(self) -> Mapping[str, float]:
         """The value of every declared parameter."""
-        return self.recipe.parameters
+        return MappingProxyType(dict(self.recipe.parameters))
 
     @cached_property
     def dof_names(self) -> tuple[str, ...]:
@@ -98,7 +98,7 @@ class Rover:
     @cached_property
     def column(self) -> Mapping[str, int]:
         """Where a name stands in q and v."""
-        return {name: i for i, name in enumerate(self.dof_names)}
+        return MappingProxyType({name: i for i, name in enumerate(self.dof_names)})
 
     @cached_property
     def passive(self) -> tuple[str, ...]:
@@ -212,22 +212,7 @@ class Rover:
         Raises:
             InputError: a mass below zero, or something that is no finite number.
         """
-        model = self.model.copy()
-        root = model.frames[model.getFrameId(self.root, pin.FrameType.BODY)]
-        checked = []
-        for kg, place in payload:
-            numbers = np.array([kg, *place], dtype=float)
-            if numbers.shape != (4,) or not np.isfinite(numbers).all() or kg < 0:
-                raise InputError(
-                    "not a mass at a place",
-                    element="payload",
-                    value=f"{kg} at {place}",
-                    cure="give kg >= 0 and x, y, z in m",
-                )
-            x, y, z = map(float, numbers[1:])
-            body = pin.Inertia(float(kg), np.array([x, y, z]), np.zeros((3, 3)))
-            model.appendBodyToJoint(root.parentJoint, body, root.placement)
-            checked.append((float(kg), (x, y, z)))
+        model, checked = put_on_base(self.model, self.root, payload)
         recipe = dataclasses.replace(self.recipe, payload=(*self.recipe.payload, *checked))
         return dataclasses.replace(self, model=model, recipe=recipe)
 
@@ -243,14 +228,10 @@ class Rover:
 
     def info(self) -> dict[str, Any]:
         """What `rover-pin info --json` prints."""
-        from rover_pin.info import info
-
         return info(self)
 
     def describe(self) -> str:
         """The same for people, a few lines."""
-        from rover_pin.info import describe
-
         return describe(self)
 
     def __repr__(self) -> str:

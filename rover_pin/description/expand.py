@@ -85,7 +85,7 @@ def _run(
 ) -> tuple[str, set[str]]:
     from xacrodoc import xacrodoc as engine
 
-    arguments = _Arguments({name: repr(value) for name, value in values.items()})
+    arguments = _Arguments({name: _written(value) for name, value in values.items()})
     said = io.StringIO()
     try:
         with _around_xacro(packages, notes, skip), contextlib.redirect_stderr(said):
@@ -101,6 +101,11 @@ def _run(
         if line.strip():
             notes.add(f"xacro: {line.strip()}")
     return expanded, arguments.asked
+
+
+def _written(value: float) -> str:
+    """A whole number without a point, so that an expression may count with it."""
+    return str(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)
 
 
 def _cure(message: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 from rover_pin.description.sidecar import Sidecar
@@ -63,7 +64,7 @@ def checked_postures(
     held: Mapping[str, float],
     limits: Mapping[str, Array],
     file: object,
-) -> dict[str, dict[str, float]]:
+) -> Mapping[str, Mapping[str, float]]:
     """The sidecar's postures; a joint that its limits hold may be named at its place.
 
     Raises:
@@ -88,7 +89,7 @@ def checked_postures(
                 name, value, limits["lower"][columns[name]], limits["upper"][columns[name]], file, element
             )
             kept[name] = float(value)
-    return postures
+    return MappingProxyType({name: MappingProxyType(kept) for name, kept in postures.items()})
 
 
 def refuse_outside(

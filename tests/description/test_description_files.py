@@ -203,3 +203,14 @@ def test_xacro_leaves_nothing_on_stderr(tmp_path, capfd):
     rover = rp.load(path)
     assert capfd.readouterr() == ("", "")
     assert any("none_*.xacro" in note for note in rover.notes)
+
+
+def test_a_whole_number_may_be_counted_with(tmp_path):
+    path = write(tmp_path / "a.urdf.xacro", more='<link name="l${[n for n in range(size)][-1]}"/>')
+    path.write_text(
+        path.read_text().replace(
+            '<link name="base">', '<xacro:property name="size" value="$(arg size)"/><link name="base">'
+        )
+    )
+    (tmp_path / "rover.yaml").write_text("schema: 1\nparameters: {size: {default: 4}}\n")
+    assert "2 root links: base, l3" in message(path)

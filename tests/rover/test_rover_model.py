@@ -207,3 +207,30 @@ def test_any_tree_is_a_plain_vector(tree, seed):
     assert len(rover.joints) == moving
     q, v = np.random.default_rng(seed).uniform(-1, 1, (2, rover.model.nv))
     np.testing.assert_allclose(pin.integrate(rover.model, q, v), q + v, atol=1e-12)
+
+
+def test_a_link_and_a_joint_may_share_a_name(make):
+    rover = make.load(
+        make.link("base"),
+        make.link("x"),
+        make.link("rover_base"),
+        make.link("y"),
+        make.joint("x", "base", "x", xyz="1 0 0"),
+        make.joint("root_joint", "x", "y", "fixed", xyz="0 1 0"),
+        make.joint("rover_base", "x", "rover_base"),
+        sidecar="up: [1, 0, 0]",
+    )
+    assert set(rover.joints) == {"x", "rover_base"}
+    assert rover.jacobian(stance_at(rover.configuration()), "root_joint").shape == (6, 8)
+
+
+def test_loading_says_nothing(make, capfd):
+    make.load(*body(make), make.link("odd", mass=None), make.joint("o", "base", "odd", limits="0 0"))
+    assert capfd.readouterr() == ("", "")
+
+
+def test_public_mappings_are_read_only(make):
+    rover = make.load(*body(make), sidecar="postures: {home: {turn: 0.1}}")
+    for mapping in (rover.postures, rover.home, rover.column, rover.parameters):
+        with pytest.raises(TypeError):
+            mapping["turn"] = 1
