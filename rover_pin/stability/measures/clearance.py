@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -11,6 +12,9 @@ from rover_pin.stability.measure import Measure, Standing
 
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
+
+# making Pinocchio's data costs more than all the rest; every use of it starts with forward kinematics
+_DATA: WeakKeyDictionary[Any, Any] = WeakKeyDictionary()
 
 
 def evaluate(standing: Standing) -> Margin:
@@ -25,7 +29,9 @@ def evaluate(standing: Standing) -> Margin:
     if not belly:
         return MEASURE.closed(missing(stance.rover))
     model = stance.rover.model
-    data = model.createData()
+    data = _DATA.get(model)
+    if data is None:
+        data = _DATA[model] = model.createData()
     pin.forwardKinematics(model, data, np.asarray(stance.configuration))
     places = np.array([data.oMi[b.joint].act(np.asarray(b.point)) for b in belly])
     heights = places[:, 2] - stance.terrain.height(places[:, 0], places[:, 1])
@@ -45,4 +51,4 @@ def missing(rover: Rover) -> str:
     return "" if rover.belly else f"{rover.name} declares no belly points"
 
 
-MEASURE = Measure("clearance", "m", "high", 0.12, evaluate, missing)
+MEASURE = Measure("clearance", "m", "high", 0.05, evaluate, missing)
