@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rover_pin import analysis as analysis
     from rover_pin import errors as errors
-    from rover_pin import stability as stability
     from rover_pin import viz as viz
     from rover_pin.description.catalogue import robots as robots
     from rover_pin.loader import load as load
     from rover_pin.rover import Rover as Rover
+    from rover_pin.stability.report import stability as stability  # the room is callable
     from rover_pin.statics.bounds import load_bounds as load_bounds
     from rover_pin.statics.distribute import distribute as distribute
     from rover_pin.statics.settle import settle as settle
