@@ -180,7 +180,7 @@ def refine(
         good = pz <= surface(kind, table, params, px, py)[0]
         if good:
             return found
-    good = good and found[6] <= start
+    good = good and found[6] <= start + 1e-12
     if good and not strayed:
         return found
     _, other = nested(kind, table, params, spacing, form, frame, cx, cy, cz, ring, width, p, x, y)
