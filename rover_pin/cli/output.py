@@ -62,10 +62,15 @@ def aside(text: str) -> None:
 
 
 def figure(value: float | None, digits: int = 4) -> str:
-    """A number for a table: `digits` significant, a dash where there is none."""
+    """A number for a table: `digits` significant, a dash where there is none, 0 for what rounding left."""
     if value is None or math.isnan(value):
         return "-"
-    return f"{value:.{digits}g}"
+    return f"{value:.{digits}g}" if abs(value) > 1e-9 else "0"
+
+
+def fixed(value: float, decimals: int) -> str:
+    """A number with so many decimals, never minus nothing."""
+    return f"{round(float(value), decimals) + 0.0:.{decimals}f}"
 
 
 def check_outputs(*paths: Path | None) -> None:

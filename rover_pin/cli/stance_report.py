@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from rover_pin.cli.output import figure, line, new_table, print_table
+from rover_pin.cli.output import figure, fixed, line, new_table, print_table
 
 if TYPE_CHECKING:
     from rover_pin.stability.margin import Margin
@@ -70,9 +70,9 @@ def print_stance(stance: Stance, margins: Mapping[str, Margin]) -> None:
     """The stance for people: status, pose, wheels, measures, residuals."""
     reason = f": {stance.reason}" if stance.reason else ""
     line(f"{stance.rover.name} on {stance.terrain.label}: {stance.status}{reason}")
-    x, y, z = stance.position
-    roll, pitch, yaw = (math.degrees(angle) for angle in stance.rpy)
-    line(f"x {x:.4f}  y {y:.4f}  z {z:.4f} m   roll {roll:.3f}  pitch {pitch:.3f}  yaw {yaw:.3f} deg")
+    x, y, z = (fixed(part, 4) for part in stance.position)
+    roll, pitch, yaw = (fixed(math.degrees(angle), 3) for angle in stance.rpy)
+    line(f"x {x}  y {y}  z {z} m   roll {roll}  pitch {pitch}  yaw {yaw} deg")
     if not stance.settled:
         return
     _print_wheels(stance)

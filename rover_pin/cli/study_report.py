@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rover_pin.analysis.summary import SHARES, largest_residuals, measures, spread, statuses
-from rover_pin.cli.output import figure, line, new_table, print_table
+from rover_pin.cli.output import figure, fixed, line, new_table, print_table
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -61,7 +62,7 @@ def print_study(data: xr.Dataset, seconds: float) -> None:
         table.add_row(name, each.unit, each.better, *shares, told)
     print_table(table)
     _print_worst(data, "tip" if "tip" in names else names[0])
-    line("largest residuals: " + "  ".join(f"{n} {figure(v, 2)}" for n, v in largest_residuals(data).items()))
+    line("largest residuals: " + "  ".join(f"{n} {v:.1e}" for n, v in largest_residuals(data).items()))
 
 
 def _print_worst(data: xr.Dataset, measure: str) -> None:
@@ -73,11 +74,7 @@ def _print_worst(data: xr.Dataset, measure: str) -> None:
     )
     for worst in each.worst:
         row = data.sel(case=worst.case)
-        degrees = [float(row[name]) * 57.29577951308232 for name in ("yaw_rad", "roll_rad", "pitch_rad")]
-        shown = [
-            f"{float(row['x_m']):.3f}",
-            f"{float(row['y_m']):.3f}",
-            *(f"{angle:.2f}" for angle in degrees),
-        ]
+        degrees = [math.degrees(row[name]) for name in ("yaw_rad", "roll_rad", "pitch_rad")]
+        shown = [*(fixed(row[name], 3) for name in ("x_m", "y_m")), *(fixed(angle, 2) for angle in degrees)]
         table.add_row(str(worst.case), worst.limiting or "-", figure(worst.value), *shown)
     print_table(table)
