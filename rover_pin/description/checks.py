@@ -51,7 +51,7 @@ def check(tree: Tree) -> None:
     for name, joint in tree.joints.items():
         _axis(tree, name, joint)
     for name, link in tree.links.items():
-        inertia(tree, name, link)
+        _inertia(tree, name, link)
 
 
 def label(element: Element) -> str:
@@ -173,7 +173,7 @@ def _axis(tree: Tree, name: str, joint: Element) -> None:
         )
 
 
-def inertia(tree: Tree, name: str, link: Element) -> None:
+def _inertia(tree: Tree, name: str, link: Element) -> None:
     """Mass and moments that are not negative.
 
     Raises:

@@ -60,8 +60,6 @@ def prepare(recipe: Recipe, sidecar: Sidecar, notes: Notes) -> Prepared:
     checks.check(tree)
     rewrite.free_joints(tree, sidecar.free, file)
     rewrite.override_inertials(tree, sidecar.inertials, file)
-    for link in sidecar.inertials:
-        checks.inertia(tree, link, tree.links[link])
     rewrite.drop_floating_root(tree, notes)
     suspects.tell_masses(tree, notes)
     suspects.tell_inertias(tree, notes)

@@ -91,12 +91,29 @@ def _worst(problem: ValidationError) -> Any:
     return next((e for e in errors if e["type"] == "extra_forbidden"), errors[0])
 
 
+_PLAIN = {
+    "missing": ("missing", "state it"),
+    "tuple_type": ("not a list", "write [a, b, ...]"),
+    "too_long": ("too many entries", "at most {max_length}"),
+    "dict_type": ("not a mapping", "write {{key: value, ...}}"),
+    "model_type": ("not a mapping", "write {{key: value, ...}}"),
+    "string_type": ("not a name", "give a name"),
+    "float_type": ("not a number", "give a number"),
+    "float_parsing": ("not a number", "give a number"),
+    "bool_type": ("neither true nor false", "give true or false"),
+    "bool_parsing": ("neither true nor false", "give true or false"),
+    "finite_number": ("not a finite number", "give a finite number"),
+    "greater_than": ("not above {gt:g}", "give a number above {gt:g}"),
+    "greater_than_equal": ("below {ge:g}", "give a number of {ge:g} or more"),
+    "literal_error": ("not one of its words", "use {expected}"),
+}
+
+
 def _what(first: Any) -> str:
-    kind = first["type"]
-    if kind == "extra_forbidden":
+    if first["type"] == "extra_forbidden":
         return "unknown key"
-    if kind == "missing":
-        return "missing"
+    if first["type"] in _PLAIN:
+        return _PLAIN[first["type"]][0].format(**first.get("ctx", {}))
     message = str(first["msg"]).removeprefix("Value error, ")
     return message[:1].lower() + message[1:]
 
@@ -114,9 +131,8 @@ def _cure(first: Any, model: type[BaseModel], path: Path, data: Any) -> str | No
         for owner in _models_at(model, path[:-1]):
             names |= {f.alias or n for n, f in owner.model_fields.items()}
         return nearest(str(path[-1]), names)
-    if first["type"] == "missing":
-        return "state it"
-    return None
+    plain = _PLAIN.get(first["type"])
+    return None if plain is None else plain[1].format(**first.get("ctx", {}))
 
 
 def _in_data(location: Sequence[str | int], data: Any, missing: bool) -> Path:

@@ -54,7 +54,7 @@ class InertialSpec(Spec):
 
     mass: NotNegative
     com: Vector = (0.0, 0.0, 0.0)
-    inertia: tuple[FiniteFloat, FiniteFloat, FiniteFloat, FiniteFloat, FiniteFloat, FiniteFloat] = (0.0,) * 6
+    inertia: tuple[NotNegative, NotNegative, NotNegative, FiniteFloat, FiniteFloat, FiniteFloat] = (0.0,) * 6
 
 
 class WheelSpec(Spec):

@@ -63,11 +63,11 @@ def test_unknown_key_inside(text, said):
         ("wheels: [{frame: w}]\n", "rover.yaml:2: wheels[0].radius: missing; state it"),
         (
             "wheels: [{frame: w, radius: -1}]\n",
-            "rover.yaml:2: wheels[0].radius: input should be greater than 0 (got -1)",
+            "rover.yaml:2: wheels[0].radius: not above 0 (got -1); give a number above 0",
         ),
         (
             "wheels: [{frame: w, radius: .nan}]\n",
-            "rover.yaml:2: wheels[0].radius: input should be a finite number (got nan)",
+            "rover.yaml:2: wheels[0].radius: not a finite number (got nan); give a finite number",
         ),
         (
             "wheels: [{frame: w, radius: 1, axis: [0, 0, 0]}]\n",
@@ -80,13 +80,34 @@ def test_unknown_key_inside(text, said):
         ("up: [0, 0]\n", "rover.yaml:2: up[2]: missing; state it"),
         (
             "postures: {home: {a: fast}}\n",
-            "rover.yaml:2: postures.home.a: input should be a valid number, unable "
-            "to parse string as a number "
-            "(got 'fast')",
+            "rover.yaml:2: postures.home.a: not a number (got 'fast'); give a number",
         ),
         (
             "free: {j: {type: ball}}\n",
-            "rover.yaml:2: free.j.type: input should be 'revolute', 'prismatic' or 'continuous' (got 'ball')",
+            "rover.yaml:2: free.j.type: not one of its words (got 'ball'); "
+            "use 'revolute', 'prismatic' or 'continuous'",
+        ),
+        ("wheels: {frame: b}\n", "rover.yaml:2: wheels: not a list; write [a, b, ...]"),
+        (
+            "parameters: {j: 3}\n",
+            "rover.yaml:2: parameters.j: not a mapping (got 3); write {key: value, ...}",
+        ),
+        ("postures: {up: [1]}\n", "rover.yaml:2: postures.up: not a mapping; write {key: value, ...}"),
+        (
+            "loops: [{name: l, frames: [a, b, c]}]\n",
+            "rover.yaml:2: loops[0].frames: too many entries; at most 2",
+        ),
+        (
+            "loops: [{name: l, frames: [a, 3]}]\n",
+            "rover.yaml:2: loops[0].frames[1]: not a name (got 3); give a name",
+        ),
+        (
+            "wheels: [{frame: w, radius: 1, free: maybe}]\n",
+            "rover.yaml:2: wheels[0].free: neither true nor false (got 'maybe'); give true or false",
+        ),
+        (
+            "inertials: {a: {mass: 1, inertia: [1, -1, 1, 0, 0, 0]}}\n",
+            "rover.yaml:2: inertials.a.inertia[1]: below 0 (got -1); give a number of 0 or more",
         ),
         (
             "parameters: {t: {default: 3, bounds: [1, 2]}}\n",
