@@ -41,7 +41,7 @@ def _figure(width: float, height: float) -> Figure:
 def cell_values(
     dataset: xr.Dataset, measure: str, statistic: str = "worst"
 ) -> tuple[Array, Array, Array, Array]:
-    """A measure over square cells of the map, five cases a cell on average.
+    """A measure over cells of the map that are square or nearly so, five cases a cell on average.
 
     Returns:
         Edges along x (nx + 1,) and y (ny + 1,) in m; values (ny, nx) in the measure's SI unit, NaN where no
@@ -51,9 +51,9 @@ def cell_values(
     reach = max(float(np.ptp(x)), float(np.ptp(y)), 1e-3)
     area = max(float(np.ptp(x) * np.ptp(y)), 1e-6)
     size = max(np.sqrt(area / max(min(len(x) / 5, 4000), 1)), reach / 160)
-    nx, ny = (max(1, int(np.ceil(np.ptp(v) / size + 1e-9))) for v in (x, y))
-    i = np.minimum(((x - x.min()) / size).astype(int), nx - 1)
-    j = np.minimum(((y - y.min()) / size).astype(int), ny - 1)
+    xs, ys = (_edges(v, size) for v in (x, y))
+    nx, ny = len(xs) - 1, len(ys) - 1
+    i, j = (np.clip(np.searchsorted(e, v, "right") - 1, 0, len(e) - 2) for e, v in ((xs, x), (ys, y)))
     cell = j * nx + i
     sign = 1.0 if dataset[measure].attrs["better"] == "high" else -1.0
     values = sign * np.asarray(dataset[measure].values, dtype=np.float64)
@@ -64,14 +64,19 @@ def cell_values(
     for k, group in zip(*_groups(sorted_cell), strict=True):
         out[k] = sorted_values[group.start + int(STATISTICS[statistic] * (group.stop - group.start - 1))]
     counts = np.bincount(cell, minlength=nx * ny).astype(np.float64)
-    edges = x.min() + size * np.arange(nx + 1), y.min() + size * np.arange(ny + 1)
-    return *edges, (sign * out).reshape(ny, nx), counts.reshape(ny, nx)
+    return xs, ys, (sign * out).reshape(ny, nx), counts.reshape(ny, nx)
+
+
+def _edges(v: Array, size: float) -> Array:
+    """Edges of cells of about this size that just cover the values."""
+    count = max(1, round(float(np.ptp(v)) / size))
+    return np.linspace(v.min(), v.max() if np.ptp(v) > 0 else v.min() + size, count + 1)
 
 
 def _groups(keys: Any) -> tuple[list[int], list[slice]]:
     """Runs of equal keys in a sorted array."""
     found, starts = np.unique(keys, return_index=True)
-    ends = [*starts[1:], len(keys)]
+    ends = [*starts[1:], len(keys)][: len(starts)]
     return [int(k) for k in found], [slice(int(a), int(b)) for a, b in zip(starts, ends, strict=True)]
 
 

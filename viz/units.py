@@ -21,7 +21,7 @@ TITLES = {
     "force_angle": "Force-angle margin",
     "energy": "Energy margin",
     "zmp": "ZMP margin",
-    "loads": "Lightest over mean load",
+    "loads": "Load balance",
     "clearance": "Belly clearance",
     "friction": "Friction margin",
     "torque": "Holding torque",

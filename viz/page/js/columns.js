@@ -73,6 +73,12 @@ export class Cases {
     return this.column("status")[i] === this.settledWord;
   }
 
+  /** Whether a column of numbers has one value only. */
+  constant(name) {
+    const about = this.header.columns[name];
+    return about.kind === "u16" && about.rounding === 0;
+  }
+
   /** How much worse first: negative where a is worse than b; what has no value comes last. */
   worseFirst(name) {
     const values = this.column(name);

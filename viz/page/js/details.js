@@ -2,13 +2,10 @@
 import { byId, element, fixed, number } from "./format.js";
 import { loadBars } from "./bars.js";
 
-/** Which edge, wheel or joint limits a case, by the shown measure or those that name edges. */
-export function limitingOf(cases, measure, i, names = ["tip", "polygon"]) {
-  for (const name of [measure.name, ...names]) {
-    const word = cases.has(`${name}_limiting`) ? cases.at(`${name}_limiting`, i) : "";
-    if (word && word !== "None") return word;
-  }
-  return "";
+/** What limits a case by a measure: an edge, wheel, joint or link; empty where it does not say. */
+export function limitingOf(cases, name, i) {
+  const word = cases.has(`${name}_limiting`) ? cases.at(`${name}_limiting`, i) : "";
+  return word === "None" ? "" : word;
 }
 
 function said(state, i) {
@@ -17,8 +14,8 @@ function said(state, i) {
   const parts = [cases.header.status_words[status] ?? status];
   const why = cases.has("reason") ? cases.at("reason", i) : "";
   if (why && why !== "None") parts.push(why);
-  const limit = limitingOf(cases, measure, i);
-  if (limit && cases.settled(i)) parts.push(`limited by ${limit}`);
+  const limit = limitingOf(cases, measure.name, i);
+  if (limit && cases.settled(i)) parts.push(`${measure.title.toLowerCase()} limited by ${limit}`);
   return parts.join(" · ");
 }
 
@@ -47,10 +44,13 @@ export function showDetails(state, lightest) {
     rows.push([name, typeof value === "string" ? value : number(value, 4), ""]);
   }
   const slides = new Map(state.robots[0].nodes.map((node) => [node.name, node.slides]));
+  const held = cases.header.joints.filter((name) => cases.constant(`joint_rad/${name}`));
   for (const name of cases.header.joints) {
     const value = cases.at(`joint_rad/${name}`, chosen);
+    if (held.includes(name)) continue;
     rows.push(slides.get(name) ? [name, fixed(1000 * value, 1), "mm"] : [name, fixed(angle * value, 1), "°"]);
   }
+  if (held.length) rows.push([`${held.length} held joint${held.length > 1 ? "s" : ""}`, "", ""]);
   byId("case-pose").replaceChildren(
     ...rows.map(([name, value, unit]) => element("tr", "", null, element("td", "", name), element("td", "value", value), element("td", "unit", unit))),
   );

@@ -3,7 +3,7 @@ import { fixed, nice, number, ticks, decimalsFor } from "./format.js";
 
 const MARGIN = { left: 46, right: 10, top: 8, bottom: 34 };
 
-/** Cells over the cases: {size, nx, ny, x0, y0, members: list of case numbers per cell}. */
+/** Cells that just cover the cases: {wide, tall, nx, ny, x0, y0, members: list of case numbers per cell}. */
 export function cellsOf(cases) {
   const [x, y] = [cases.column("x_m"), cases.column("y_m")];
   let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
@@ -14,14 +14,15 @@ export function cellsOf(cases) {
   const area = Math.max((x1 - x0) * (y1 - y0), 1e-6);
   const wanted = Math.min(cases.count / 5, 4000);
   const size = Math.max(Math.sqrt(area / Math.max(wanted, 1)), Math.max(x1 - x0, y1 - y0) / 160, 1e-3);
-  const nx = Math.max(1, Math.ceil((x1 - x0) / size + 1e-9));
-  const ny = Math.max(1, Math.ceil((y1 - y0) / size + 1e-9));
+  const nx = Math.max(1, Math.round((x1 - x0) / size));
+  const ny = Math.max(1, Math.round((y1 - y0) / size));
+  const [wide, tall] = [(x1 - x0) / nx || size, (y1 - y0) / ny || size];
   const members = Array.from({ length: nx * ny }, () => []);
   for (let i = 0; i < cases.count; i++) {
-    const column = Math.min(nx - 1, Math.floor((x[i] - x0) / size));
-    members[Math.min(ny - 1, Math.floor((y[i] - y0) / size)) * nx + column].push(i);
+    const column = Math.min(nx - 1, Math.floor((x[i] - x0) / wide));
+    members[Math.min(ny - 1, Math.floor((y[i] - y0) / tall)) * nx + column].push(i);
   }
-  return { size, nx, ny, x0, y0, members };
+  return { wide, tall, nx, ny, x0, y0, members };
 }
 
 /** One value a cell: NaN where no case of it has an answer. */
@@ -39,18 +40,18 @@ export function cellValues(cases, cells, measure, statistic) {
 
 /** Paint cells and contours with the context's transform in metres, y up. */
 export function paintCells(context, cells, values, scale, { pixel, alpha = 1 }) {
-  const { size } = cells;
+  const { wide, tall } = cells;
   for (let k = 0; k < values.length; k++) {
     if (!cells.members[k].length) continue;
-    const x = cells.x0 + (k % cells.nx) * size;
-    const y = cells.y0 + Math.floor(k / cells.nx) * size;
+    const x = cells.x0 + (k % cells.nx) * wide;
+    const y = cells.y0 + Math.floor(k / cells.nx) * tall;
     const none = Number.isNaN(values[k]);
     context.globalAlpha = alpha;
     context.fillStyle = none ? "#c9d0d6" : scale.colour(values[k]);
-    context.fillRect(x, y, size + 0.3 * pixel, size + 0.3 * pixel);
+    context.fillRect(x, y, wide + 0.3 * pixel, tall + 0.3 * pixel);
     if (none) {
-      const arm = Math.min(0.22 * size, 3.5 * pixel);
-      const [cx, cy] = [x + size / 2, y + size / 2];
+      const arm = Math.min(0.22 * wide, 0.22 * tall, 3.5 * pixel);
+      const [cx, cy] = [x + wide / 2, y + tall / 2];
       context.strokeStyle = "#7b8792";
       context.lineWidth = 0.9 * pixel;
       context.beginPath();
@@ -181,7 +182,7 @@ export class MapView {
     const { px, py, k } = this.view;
     const x = (event.clientX - box.left - px(0)) / k;
     const y = (py(0) - (event.clientY - box.top)) / k;
-    const [i, j] = [Math.floor((x - cells.x0) / cells.size), Math.floor((y - cells.y0) / cells.size)];
+    const [i, j] = [Math.floor((x - cells.x0) / cells.wide), Math.floor((y - cells.y0) / cells.tall)];
     return i >= 0 && j >= 0 && i < cells.nx && j < cells.ny ? j * cells.nx + i : null;
   }
 

@@ -103,7 +103,7 @@ export class Marks {
     this.solid = new Buffers(view.THREE, parent, 0.95);
   }
 
-  /** Draw a case's marks; returns labels for the loads. */
+  /** Draw a case's marks; returns labels for the loads. `limiting`: words, the first that is an edge counts. */
   draw({ contacts, com, limiting, span, groundHeight }) {
     const { solid, area } = this;
     solid.begin();
@@ -135,7 +135,8 @@ export class Marks {
     const ring = bearing.length > 2 ? hullOf(bearing).map((i) => bearing[i]) : [];
     if (ring.length < 3) return;
     const edges = ring.map((a, k) => [a, ring[(k + 1) % ring.length]]);
-    let limit = edges.findIndex(([a, b]) => [`${a[0]}-${b[0]}`, `${b[0]}-${a[0]}`].includes(limiting));
+    const named = (word) => edges.findIndex(([a, b]) => word === `${a[0]}-${b[0]}` || word === `${b[0]}-${a[0]}`);
+    let limit = limiting.map(named).find((k) => k >= 0) ?? -1;
     if (limit < 0) {
       const away = edges.map(([a, b]) => ((b[1] - a[1]) * (com[1] - a[2]) - (b[2] - a[2]) * (com[0] - a[1])) / Math.hypot(b[1] - a[1], b[2] - a[2]));
       limit = away.indexOf(Math.min(...away));

@@ -18,6 +18,7 @@ export class Picture {
       return;
     }
     this.landscape = new Landscape(this.view, state.ground);
+    this.view.groundAt = (x, y) => state.ground.at(x, y)[0];
     this.marks = new Marks(this.view);
     this.labels = new Labels(this.view, byId("labels"));
     this.view.buttons(byId("views"), (name) => this.view.look(name, 2.1));
@@ -59,7 +60,7 @@ export class Picture {
     this.landscape.around(com[0], com[1], robot.span);
     this.view.follow(com, cases.at("yaw_rad", chosen), robot.span);
     if (first) this.view.look("Iso", 2.1);
-    const limiting = limitingOf(cases, measure, chosen);
+    const limiting = [measure.name, "tip", "polygon"].map((name) => limitingOf(cases, name, chosen));
     const labels = this.marks.draw({ contacts, com, limiting, span: robot.span, groundHeight: ground.at(com[0], com[1])[0] });
     this.labels.set(labels);
     return this.marks.lightest;

@@ -1,5 +1,5 @@
-/* Histograms of every measure, and the spread of each wheel's load. */
-import { element, fixed, number } from "./format.js";
+/* Histograms of every measure, and how each wheel's load spreads over the study. */
+import { byId, element, fixed, number } from "./format.js";
 
 const BINS = 48;
 
@@ -17,8 +17,9 @@ export class Plots {
   constructor(holder, state) {
     Object.assign(this, { holder, state });
     this.rows = state.cases.measures.map((measure) => this.row(measure));
-    this.loads = element("div", "plot loads");
-    holder.replaceChildren(...this.rows.map((row) => row.box), this.loads);
+    this.loads = byId("study-loads");
+    holder.replaceChildren(...this.rows.map((row) => row.box));
+    new ResizeObserver(() => this.spread()).observe(this.loads);
     new ResizeObserver(() => this.draw()).observe(holder);
   }
 
@@ -39,9 +40,9 @@ export class Plots {
   draw() {
     const width = this.holder.clientWidth - 2 * 10;
     if (width < 40) return;
-    const height = Math.max(20, Math.min(40, (this.holder.clientHeight - 150) / this.rows.length - 36));
+    const height = Math.max(14, Math.min(40, (this.holder.clientHeight - 24) / this.rows.length - 34));
     for (const row of this.rows) this.histogram(row, width, height);
-    this.spread(width);
+    this.spread();
   }
 
   histogram({ measure, canvas, ends, title }, width, height) {
@@ -83,8 +84,10 @@ export class Plots {
   }
 
   /** Per wheel: 5 to 95 %, the quarters, the median; the chosen case's load. */
-  spread(width) {
+  spread() {
     const { cases, chosen } = this.state;
+    const width = this.loads.clientWidth;
+    if (width < 40) return;
     const { wheels } = cases.header;
     this.loads.replaceChildren();
     if (!wheels.length) return;
@@ -119,7 +122,6 @@ export class Plots {
     context.fillText("0", left, line * wheels.length + 12);
     context.textAlign = "right";
     context.fillText(fixed(most, most < 10 ? 1 : 0), width - 2, line * wheels.length + 12);
-    const head = element("div", "head", null, element("b", "", "Wheel loads [N]"), element("span", "dim", "p5–p95, quarters, median"));
-    this.loads.append(head, canvas);
+    this.loads.append(canvas);
   }
 }

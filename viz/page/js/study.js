@@ -83,16 +83,21 @@ function keys(state, table) {
   });
 }
 
+/* What the address asks for: `#case=123&measure=tip`. */
 function asked(cases) {
-  const found = /(?:^#|&)case=(\d+)/.exec(location.hash);
-  return found && Number(found[1]) < cases.count ? Number(found[1]) : null;
+  const words = new URLSearchParams(location.hash.slice(1));
+  const chosen = words.has("case") ? Number(words.get("case")) : NaN;
+  return {
+    chosen: Number.isInteger(chosen) && chosen >= 0 && chosen < cases.count ? chosen : null,
+    measure: cases.measure.get(words.get("measure")) ?? null,
+  };
 }
 
 function start({ header, segments }) {
   const cases = new Cases(header, segments);
   const state = { cases, ground: new Ground(header.ground, segments.get("ground")), cells: cellsOf(cases) };
-  Object.assign(state, { robots: header.robots, exact: header.exact, statistic: "worst", measure: cases.measure.get(header.first) });
-  state.chosen = asked(cases) ?? cases.order(state.measure.name)[0];
+  Object.assign(state, { robots: header.robots, exact: header.exact, statistic: "worst", measure: asked(cases).measure ?? cases.measure.get(header.first) });
+  state.chosen = asked(cases).chosen ?? cases.order(state.measure.name)[0];
   const colour = () => {
     state.scale = scaleOf(cases, state.measure);
     state.values = cellValues(cases, state.cells, state.measure, state.statistic);
@@ -112,23 +117,26 @@ function start({ header, segments }) {
     picture.paint();
     chosen();
   };
+  const remember = () => history.replaceState(null, "", `#case=${state.chosen}&measure=${state.measure.name}`);
   state.colourBy = (name) => {
     state.measure = cases.measure.get(name);
+    remember();
     table.sort = null;
     byId("measure").value = name;
     state.recolour();
   };
   state.choose = (i) => {
     state.chosen = i;
-    history.replaceState(null, "", `#case=${i}`);
+    remember();
     map.draw();
     plots.draw();
     table.draw();
     chosen();
   };
   window.addEventListener("hashchange", () => {
-    const i = asked(cases);
+    const { chosen: i, measure } = asked(cases);
     if (i !== null && i !== state.chosen) state.choose(i);
+    if (measure && measure !== state.measure) state.colourBy(measure.name);
   });
   picture = new Picture(state, segments);
   heading(state, table);

@@ -50,9 +50,9 @@ export class Viewer3d {
       viewer.set_property(["Lights", name], "visible", false);
     }
     viewer.scene_tree.find(["Lights", "AmbientLight", "<object>"]).object.intensity = 0.0;
-    this.sky = new THREE.HemisphereLight(0xffffff, 0xb8ada0, 0.60);
+    this.sky = new THREE.HemisphereLight(0xffffff, 0xc4b9ab, 0.68);
     this.sky.position.set(0, 0, 1);
-    this.sun = new THREE.DirectionalLight(0xfff6e8, 0.50);
+    this.sun = new THREE.DirectionalLight(0xfff6e8, 0.42);
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.bias = -0.0006;
@@ -89,7 +89,7 @@ export class Viewer3d {
     viewer.camera.position.add(step);
     viewer.controls.target.add(step);
     Object.assign(this, { target, yaw, span });
-    this.sun.position.set(x - 2.2 * span, y + 1.4 * span, z + 3.6 * span);
+    this.sun.position.set(x - 1.6 * span, y + 1.0 * span, z + 4.4 * span);
     this.sun.target.position.set(x, y, z);
     const box = this.sun.shadow.camera;
     Object.assign(box, { left: -1.6 * span, right: 1.6 * span, top: 1.6 * span, bottom: -1.6 * span });
@@ -109,6 +109,8 @@ export class Viewer3d {
     const target = new this.THREE.Vector3(...cameraAxes(this.target));
     controls.target.copy(target);
     camera.position.copy(target).add(new this.THREE.Vector3(...away));
+    const floor = this.groundAt?.(camera.position.x, -camera.position.z) ?? -Infinity;
+    camera.position.y = Math.max(camera.position.y, floor + 0.4 * this.span);
     if (aside) camera.setViewOffset(1000, 1000 / camera.aspect, 1000 * aside, 0, 1000, 1000 / camera.aspect);
     controls.update();
     this.viewer.set_dirty();
