@@ -1,10 +1,10 @@
 """How a rover stands, as one complementarity problem handed to scipy's least squares.
 
-Unknown are every free coordinate (couplings are not eliminated), the loads of all places that may touch, the
-forces of stops, and the multipliers of couplings and ball loops. Complementary pairs become Fischer-Burmeister
-residuals sqrt(a^2 + b^2) - a - b. Kinematics is `tree_walk`, contacts are `ring_distance`; forces are
-complex-step derivatives of the energy and of the heights of contact points. Nothing of the package's solver is
-used: no Pinocchio, no contact search, no reduction.
+Unknown are every free coordinate (couplings are not eliminated), the loads of all places that may touch,
+the forces of joints' stops, and the multipliers of couplings and ball loops. Complementary pairs become
+Fischer-Burmeister residuals sqrt(a^2 + b^2) - a - b. Kinematics is `tree_walk`, contacts are
+`ring_distance`; forces are complex-step derivatives of the energy and of the heights of contact points.
+Nothing of the package's solver is used: no Pinocchio, no contact search, no reduction.
 """
 
 from __future__ import annotations
@@ -133,7 +133,7 @@ class Oracle:
                 world = np.array([getattr(t, key) for t in each])
                 local = np.einsum("bji,bj->bi", pose[:, :3, :3], world - pose[:, :3, 3])
                 spots.append((d.link, local))
-        return grid, found, self.gradients(grid, spots)
+        return found, self.gradients(grid, spots)
 
     def solve_at(self, ground, q, slots, stops, start):
         """Least squares on the residuals with these places and stops that may carry."""
@@ -169,13 +169,15 @@ class Oracle:
             return np.concatenate([gap, slack]), np.concatenate([loads, held])
 
         def residual(u):
-            _, found, grads = known(u, False)
+            found, grads = known(u, False)
             a, b = pairs(u, found)
             closed = self.rows @ unpack(u)[0] - self.right
-            return np.concatenate([unbalanced(u, grads, 0), closed, grads[2][0] / self.span, np.sqrt(a * a + b * b) - a - b])
+            return np.concatenate(
+                [unbalanced(u, grads, 0), closed, grads[2][0] / self.span, np.sqrt(a * a + b * b) - a - b]
+            )
 
         def jacobian(u):
-            grid, found, grads = known(u, True)
+            found, grads = known(u, True)
             a, b = pairs(u, found)
             size = np.maximum(np.hypot(a, b), 1e-200)
             da, db = a / size - 1.0, b / size - 1.0
@@ -199,9 +201,11 @@ class Oracle:
             return out
 
         first = np.concatenate([q / self.unit, start, np.zeros(t + k + balls)])
-        got = least_squares(residual, first, jac=jacobian, method="lm", ftol=1e-15, xtol=1e-15, gtol=1e-15, max_nfev=200)
+        got = least_squares(
+            residual, first, jac=jacobian, method="lm", ftol=1e-15, xtol=1e-15, gtol=1e-15, max_nfev=200
+        )
         q, loads, *_ = unpack(got.x)
-        return q, loads, float(np.max(np.abs(got.fun))), known(got.x, False)[1]
+        return q, loads, float(np.max(np.abs(got.fun))), known(got.x, False)[0]
 
     def settle_on(self, ground, q) -> tuple[np.ndarray, float, list[tuple[int, Touch, float]]]:
         """Solve, look at the whole footprint again, and solve again until no new place comes up."""
@@ -209,7 +213,11 @@ class Oracle:
         slots, loads, stops = [], np.zeros(0), []
         for _ in range(10):
             seen = self.look(ground, q)
-            fresh = [(i, t.ground[:2] - c[:2], t) for i, (ts, (c, _)) in enumerate(zip(seen, self.wheels(q), strict=True)) for t in ts]
+            fresh = [
+                (i, t.ground[:2] - c[:2], t)
+                for i, (ts, (c, _)) in enumerate(zip(seen, self.wheels(q), strict=True))
+                for t in ts
+            ]
             deep = min((t.gap for *_, t in fresh), default=0.0)
             beyond = [s for s in self.near_stops(q) if s not in stops]
             if slots and deep > -1e-9 and not beyond:
@@ -231,8 +239,15 @@ class Oracle:
                 out.append((name, 1.0, high))
         return out
 
-    def settle(self, steps: int = 4) -> Rest:
-        """From level ground at the base's height to the terrain in `steps` equal rises."""
+    def settle(self, steps: int = 4, start: dict[str, float] | None = None) -> Rest:
+        """From level ground at the base's height to the terrain in `steps` equal rises.
+
+        With `start`, coordinates by name, the nearest solution to that.
+        """
+        if start is not None:
+            return self.rest(
+                *self.settle_on(Ground(self.terrain), np.array([start[name] for name in self.names]))
+            )
         level = float(self.terrain.height(*self.place[:2]))
         q = self.level()
         q[0] = level + self.span
@@ -240,6 +255,10 @@ class Oracle:
         q[0] -= min(ts[0].gap for ts in flat)
         for s in np.linspace(0.0, 1.0, steps + 1):
             q, worst, touches = self.settle_on(Ground(self.terrain, level, float(s)), q)
+        return self.rest(q, worst, touches)
+
+    def rest(self, q, worst, touches) -> Rest:
+        """The answer by names."""
         names = [d.name for d in self.machine.discs]
         loads = dict.fromkeys(names, 0.0)
         for i, _, load in touches:

@@ -1,9 +1,9 @@
 """Where a wheel meets the ground, by looking at the whole footprint; reads heights and gradients only.
 
-A wheel is a circle swept by a ball. The distance of a point to a circle is known in closed form, so the gap is
-the least of that over the surface's points, minus the ball's radius: a dense look at the ground below, then
-the root of the stationarity conditions by scipy at each of its low places. The package looks the other way, from
-points of the circle to the ground.
+A wheel is a circle swept by a ball. The distance of a point to a circle is known in closed form, so the gap
+is the least of that over the surface's points, minus the ball's radius: a dense look at the ground below,
+then the root of the stationarity conditions by scipy at each of its low places. The package looks the other
+way, from points of the circle to the ground.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ def touch(ground: Ground, center, axis, ring, tread, x, y) -> Touch:
     nearest = to_circle(w[None], center, axis, ring)[0]
     up = nearest - w
     size = float(np.linalg.norm(up))
-    return Touch(size - tread, w, nearest, up / size)
+    return Touch(size - tread, w, nearest, up / max(size, 1e-300))
 
 
 def look(ground: Ground, center, axis, ring, tread, pitch=0.004, keep=0.01) -> list[Touch]:

@@ -8,7 +8,7 @@ a Jacobian is needed.
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 import yaml
@@ -58,8 +58,7 @@ class Machine:
     couplings: list[tuple[dict[str, float], float]]
     springs: list[dict]
     balls: list[tuple[dict, dict]]
-    driven: set[str]
-    above: dict[str, str] = field(default_factory=dict)
+    driven: set[str]  # and the wheels' own joints: braked
 
     @property
     def mass(self) -> float:
@@ -79,7 +78,11 @@ class Machine:
         rows, kind = len(q), q.dtype
         x, y, yaw = place
         pose = np.zeros((rows, 4, 4), kind)
-        turn = _about_z(np.full(rows, yaw, kind)) @ _about_y(columns["base_pitch"]) @ _about_x(columns["base_roll"])
+        turn = (
+            _about_z(np.full(rows, yaw, kind))
+            @ _about_y(columns["base_pitch"])
+            @ _about_x(columns["base_roll"])
+        )
         pose[:, :3, :3] = turn
         pose[:, 0, 3], pose[:, 1, 3], pose[:, 2, 3] = x, y, columns["base_z"]
         pose[:, 3, 3] = 1.0
@@ -97,14 +100,23 @@ class Machine:
         return found
 
     def potential(self, poses, names, q, gravity) -> np.ndarray:
-        """(B,) energy of gravity and joint springs [J]."""
+        """(B,) energy of gravity and springs [J]."""
         total = 0.0
         for link, m, com in self.masses:
             total = total + m * gravity * (poses[link][:, 2, :3] @ com + poses[link][:, 2, 3])
         for s in self.springs:
+            if "frames" in s:
+                short = s["length_max"] - self.length(poses, s)
+                total = total + s["preload"] * short + 0.5 * s["stiffness"] * short * short
+                continue
             away = q[:, names.index(s["joint"])] - s.get("rest", 0.0)
             total = total + 0.5 * s["stiffness"] * away * away - s.get("preload", 0.0) * away
         return total
+
+    def length(self, poses, spring) -> np.ndarray:
+        """(B,) of a spring between frames [m]."""
+        first, second = (_spot(poses, _end(end)) for end in spring["frames"])
+        return np.sqrt(np.sum((first - second) ** 2, axis=1))
 
     def coupling_rows(self, names, fixed) -> tuple[np.ndarray, np.ndarray]:
         """A q = b of the couplings with a free joint."""
@@ -154,7 +166,8 @@ def machine(rover, springs=None) -> Machine:
     balls = [tuple(map(_end, loop["frames"])) for loop in sidecar.get("loops", ()) if loop["type"] == "ball"]
     assert len(balls) == len(sidecar.get("loops", ())), "only ball loops here"
     given = sidecar.get("springs", []) if springs is None else springs
-    return Machine(root, masses, ordered, discs, couplings, list(given), balls, set(rover.actuated))
+    braked = {above[d.link].name for d in discs if abs(above[d.link].axis @ d.axis) > 0.999}
+    return Machine(root, masses, ordered, discs, couplings, list(given), balls, set(rover.actuated) | braked)
 
 
 def _branch(e) -> Branch:
