@@ -17,6 +17,7 @@ from PIL import Image
 
 from rover_pin.viz.browser import FLAGS, BrowserError, find_browser, picture, save_png
 from rover_pin.viz.page.study import study_page
+from rover_pin.viz.serve import Served
 from rover_pin.viz.show import stance_page
 
 try:
@@ -122,3 +123,24 @@ def test_a_cut_file_says_so(tmp_path):
     text = stance_page(doubles.stance(), {})
     cut = re.sub(r'(class="block">[^<]{1000})[^<]*', r"\1", text)
     assert 'class="message">No 3D here: the file is cut short: save it again' in dom(cut, tmp_path)
+
+
+@needs_browser
+def test_an_open_page_takes_over_another_stance(tmp_path):
+    other = stance_page(doubles.stance(status="tips"), {})
+
+    class Watched(Served):
+        asked = 0
+
+        def answer(self, path):
+            self.asked += path == "/mark"
+            if self.asked == 3:
+                self._put(other)
+            return super().answer(path)
+
+    with Watched(stance_page(doubles.stance(), {})) as served:
+        flags = [*FLAGS, f"--user-data-dir={tmp_path}/profile", "--virtual-time-budget=9000", "--dump-dom"]
+        flags += ["--no-sandbox"] if os.geteuid() == 0 else []
+        done = subprocess.run([BROWSER, *flags, served.url], capture_output=True, timeout=180, check=False)
+    assert b'class="chip bad">tips over<' in done.stdout
+    assert served.asked >= 4

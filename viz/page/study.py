@@ -122,6 +122,7 @@ def study_page(
         "wheels": [str(name) for name in dataset["wheel"].values],
         "joints": [str(name) for name in dataset["joint"].values],
         "varied": _varied(dataset),
+        "reshaped": any(name.removeprefix("parameter_") in rover.parameters for name in _varied(dataset)),
         "columns": {name: column.about() for name, column in columns.items()},
         "status_words": STATUS_WORDS,
         "ground": ground,

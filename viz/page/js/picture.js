@@ -43,6 +43,7 @@ export class Picture {
     const known = exact[chosen];
     const posed = Number.isFinite(cases.at("z_m", chosen));
     byId("unposed").hidden = posed;
+    byId("nominal").hidden = !posed || Boolean(known) || !cases.header.reshaped;
     if (!this.view) return lightestOf(cases, chosen);
     if (!posed) {
       this.marks.clear();

@@ -93,9 +93,9 @@ export class Plots {
     if (!wheels.length) return;
     const quantiles = wheels.map((wheel) => [0.05, 0.25, 0.5, 0.75, 0.95].map((q) => cases.quantile(`load_n/${wheel}`, q)));
     const most = 1.05 * Math.max(...quantiles.map((q) => q[4]).filter(Number.isFinite), 1e-9);
-    const [line, left] = [15, 34];
+    const [line, left] = [13, 34];
     const canvas = element("canvas");
-    const context = context2d(canvas, width, line * wheels.length + 16);
+    const context = context2d(canvas, width, line * wheels.length + 14);
     const x = (value) => left + (value / most) * (width - left - 4);
     context.font = "11px system-ui, sans-serif";
     wheels.forEach((wheel, k) => {
@@ -119,9 +119,9 @@ export class Plots {
     });
     context.fillStyle = "#5d6873";
     context.textAlign = "left";
-    context.fillText("0", left, line * wheels.length + 12);
+    context.fillText("0", left, line * wheels.length + 11);
     context.textAlign = "right";
-    context.fillText(fixed(most, most < 10 ? 1 : 0), width - 2, line * wheels.length + 12);
+    context.fillText(fixed(most, most < 10 ? 1 : 0), width - 2, line * wheels.length + 11);
     this.loads.append(canvas);
   }
 }

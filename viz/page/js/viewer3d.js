@@ -81,7 +81,6 @@ export class Viewer3d {
 
   /** Take the sun along, and the camera by the same way, so that the view stays as it was turned. */
   follow(target, yaw, span) {
-    const [x, y, z] = target;
     const { viewer } = this;
     const to = cameraAxes(target);
     const from = viewer.controls.target.toArray();
@@ -89,13 +88,22 @@ export class Viewer3d {
     viewer.camera.position.add(step);
     viewer.controls.target.add(step);
     Object.assign(this, { target, yaw, span });
-    this.sun.position.set(x - 1.6 * span, y + 1.0 * span, z + 4.4 * span);
-    this.sun.target.position.set(x, y, z);
+    this.shine();
     const box = this.sun.shadow.camera;
     Object.assign(box, { left: -1.6 * span, right: 1.6 * span, top: 1.6 * span, bottom: -1.6 * span });
     Object.assign(box, { near: 0.5 * span, far: 9 * span });
     box.updateProjectionMatrix();
     viewer.set_dirty();
+  }
+
+  /** Put the sun high over the looker's left shoulder, so that what is seen is lit. */
+  shine() {
+    const { camera, controls } = this.viewer;
+    const away = camera.position.clone().sub(controls.target);
+    const turn = Math.atan2(-away.z, away.x) - 0.9;
+    const [x, y, z] = this.target;
+    this.sun.position.set(x + 2.2 * this.span * Math.cos(turn), y + 2.2 * this.span * Math.sin(turn), z + 4 * this.span);
+    this.sun.target.position.set(x, y, z);
   }
 
   /** Look from one of the named sides, in the rover's heading; `aside` moves the picture by parts of the width. */
@@ -113,6 +121,7 @@ export class Viewer3d {
     camera.position.y = Math.max(camera.position.y, floor + 0.4 * this.span);
     if (aside) camera.setViewOffset(1000, 1000 / camera.aspect, 1000 * aside, 0, 1000, 1000 / camera.aspect);
     controls.update();
+    this.shine();
     this.viewer.set_dirty();
   }
 
