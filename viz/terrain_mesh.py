@@ -95,5 +95,6 @@ def _shades(H: Array, steepness: Array, step: float, pitch: Array) -> Array:
         fade = np.clip(apart / (5 * pitch) - 0.6, 0.0, 1.0) * np.clip(
             2.5 - pitch / float(pitch.min()), 0.0, 1.0
         )
+        fade *= np.clip(steepness / 2e-3, 0.0, 1.0)  # a level place at a contour's height is no line
         tone = tone * (1 - 0.22 * fade * np.clip(1.1 - away / pitch, 0.0, 1.0))
     return np.asarray(tone[..., None] * np.array(SAND), dtype=np.float64)

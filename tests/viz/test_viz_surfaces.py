@@ -132,3 +132,24 @@ def test_a_wheel_with_looks_of_its_own_is_not_drawn_twice():
     rover.visuals = (*rover.visuals, SimpleNamespace(link="wheel_fl"))
     assert "fl" not in [wheel.name for wheel in bare_shapes(rover)]
     assert len(bare_shapes(rover)) == 5
+
+
+class Terrace:
+    """Level at 0 and 0.2 m, both heights of contours, with a ramp between."""
+
+    label, spacing, extent = "terrace", 0.05, (-3.0, 3.0, -3.0, 3.0)
+
+    def height(self, x, y):
+        return np.clip(np.asarray(x) + 0.0 * np.asarray(y), 0.0, 0.2)
+
+    def gradient(self, x, y):
+        x = np.asarray(x) + 0.0 * np.asarray(y)
+        return np.stack([np.where((x > 0) & (x < 0.2), 1.0, 0.0), 0.0 * x], axis=-1)
+
+
+def test_level_ground_at_a_contours_height_is_not_painted_as_a_line():
+    ground, step = ground_surface(Terrace(), 0.0, 0.0, 1.0)
+    assert step == pytest.approx(0.02)
+    x = ground.vertices[:, 0]
+    for side in (x < -1e-9, x > 0.2 + 1e-9):
+        assert np.ptp(ground.colours[side], axis=0).max() < 1e-12

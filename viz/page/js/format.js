@@ -6,6 +6,7 @@ export function number(value, digits = 3) {
   if (value === Infinity) return "∞";
   if (value === -Infinity) return "none";
   const size = Math.abs(value);
+  if (size < 1e-6) return "0";
   let decimals = size === 0 ? 0 : Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
   if (decimals > 6) decimals = 6;
   return fixed(value, decimals);

@@ -40,7 +40,7 @@ function marginRow(margin) {
     element("td", "unit", margin.better === "high" ? "↑" : "↓"),
     element("td", "unit", margin.limiting || ""),
   );
-  row.title = [`better: ${margin.better}`, margin.note].filter(Boolean).join(". ");
+  row.title = [`better: ${margin.better}`, margin.limiting, margin.note].filter(Boolean).join(". ");
   if (margin.value === null || (margin.better === "high" && margin.value < 0)) row.className = "poor";
   return row;
 }
