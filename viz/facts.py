@@ -14,6 +14,7 @@ from rover_pin.viz.units import ranked, shown, title_of
 if TYPE_CHECKING:
     from rover_pin.stability.margin import Margin
     from rover_pin.statics.stance import Stance
+    from rover_pin.viz.scene import Drawn
 
 STATUS_WORDS = {
     "settled": "settled",
@@ -35,13 +36,13 @@ def margins_of(stance: Stance) -> Mapping[str, Margin]:
     return dict(stability(stance))
 
 
-def facts(stance: Stance, margins: Mapping[str, Margin], contour_m: float) -> dict[str, Any]:
+def facts(stance: Stance, margins: Mapping[str, Margin], drawn: Drawn) -> dict[str, Any]:
     """Plain values for the page `stance`.
 
     Args:
         stance: what is shown.
         margins: its measures by name.
-        contour_m: the contours' step on the ground, 0 where there are none.
+        drawn: what `draw` said of the picture.
     """
     status = str(stance.status)
     return {
@@ -59,7 +60,8 @@ def facts(stance: Stance, margins: Mapping[str, Margin], contour_m: float) -> di
         "margins": [_margin(name, margins[name]) for name in ranked(margins)],
         "pose": _pose(stance),
         "residuals": [{"name": name, "value": value} for name, value in stance.residuals.items()],
-        "contour_m": contour_m,
+        "contour_m": drawn.contour_m,
+        "unread": list(drawn.unread),
         "labels": _labels(stance),
         "target": [float(part) for part in stance.com],
         "yaw": float(stance.rpy[2]),

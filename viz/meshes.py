@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rover_pin.errors import InputError
 from rover_pin.numerics import Array
 from rover_pin.viz.colours import BODY, HUB, RUBBER, hexadecimal
 from rover_pin.viz.surfaces import Surface, joined, revolved, ring_profile
@@ -55,10 +56,20 @@ def _read_mesh(path: str) -> tuple[Array, Any]:
     """Vertices and faces of a mesh file of any form that trimesh reads, its scene flattened.
 
     Corners sharper than trimesh's smoothing angle keep their edge, which shared vertices would round off.
+
+    Raises:
+        InputError: the file cannot be read.
     """
     import trimesh
 
-    mesh: Any = trimesh.load(path, force="mesh")
+    try:
+        mesh: Any = trimesh.load(path, force="mesh")
+        if not len(mesh.faces):
+            raise ValueError("no faces")
+    except Exception as error:  # its readers raise whatever their formats' libraries raise
+        raise InputError(
+            "this mesh cannot be read", file=path, value=str(error), cure="convert it"
+        ) from error
     if len(mesh.faces) < 60_000:
         mesh = trimesh.graph.smooth_shade(mesh, angle=np.radians(30))
     return np.asarray(mesh.vertices, dtype=np.float64), np.asarray(mesh.faces)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rover_pin.errors import InputError
+from rover_pin.errors import InputError, StudyError
 from rover_pin.numerics import Array
 from rover_pin.viz.page.study import main_measure, measures_of
 from rover_pin.viz.units import shown, title_of
@@ -99,12 +99,14 @@ def plot_map(
         A matplotlib Figure; `figure.savefig("map.svg")` writes it.
 
     Raises:
-        StudyError: the dataset has no such measure.
+        StudyError: the dataset has no such measure, or none.
         InputError: no such statistic.
     """
     import matplotlib as mpl
 
     name = main_measure(dataset, measure)
+    if name not in dataset:
+        raise StudyError("the study has no measure to map", cure="run it with measures: [tip]")
     if statistic not in STATISTICS:
         raise InputError(
             "no such statistic", element="statistic", value=statistic, cure="use worst, median or best"

@@ -7,10 +7,13 @@ Paths: `rover` with a node or two a joint (see tree), `rover/.../visuals/N` for 
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rover_pin.errors import InputError
 from rover_pin.viz.arrows import load_arrows
 from rover_pin.viz.meshes import bare_shapes, ring_surface, surface_object, visual_object
 from rover_pin.viz.support import com_marker, support_area, support_edges
@@ -23,14 +26,31 @@ if TYPE_CHECKING:
     from rover_pin.viz.surfaces import Surface
 
 
+@dataclass(frozen=True)
+class Drawn:
+    """What a page should say of the picture.
+
+    Attributes:
+        contour_m: the contours' step, 0 where the ground has none.
+        unread: names of mesh files that could not be read and are not drawn.
+    """
+
+    contour_m: float
+    unread: tuple[str, ...] = ()
+
+
 def span_of(rover: Rover) -> float:
     """The wheel span, m, by which marks are sized; a rover without one is taken as 1 m."""
     span = float(rover.wheel_span)
     return span if np.isfinite(span) and span > 1e-3 else 1.0
 
 
-def draw_robot(visualizer: Any, rover: Rover) -> None:
-    """The robot's looks in its tree of joints, the base and all joints at zero."""
+def draw_robot(visualizer: Any, rover: Rover) -> tuple[str, ...]:
+    """The robot's looks in its tree of joints, the base and all joints at zero.
+
+    Returns:
+        Names of the meshes that could not be read.
+    """
     nodes = {node.joint: node for node in joint_nodes(rover.model)}
     for node in nodes.values():
         if node.fixed:
@@ -43,10 +63,15 @@ def draw_robot(visualizer: Any, rover: Rover) -> None:
         target.set_object(thing)
         target.set_transform(placement)
 
+    unread: list[str] = []
     for visual in rover.visuals:
-        put(visual.joint, *visual_object(visual))
+        try:
+            put(visual.joint, *visual_object(visual))
+        except InputError:
+            unread.append(Path(str(visual.mesh)).name)
     for shape in bare_shapes(rover):
         put(shape.joint, surface_object(ring_surface(shape)), np.eye(4))
+    return tuple(dict.fromkeys(unread))
 
 
 def pose_robot(visualizer: Any, stance: Stance) -> None:
@@ -59,7 +84,7 @@ def pose_robot(visualizer: Any, stance: Stance) -> None:
         visualizer[node.path].set_transform(matrix)
 
 
-def draw(visualizer: Any, stance: Stance, *, limiting: str | None = None) -> float:
+def draw(visualizer: Any, stance: Stance, *, limiting: str | None = None) -> Drawn:
     """Write the whole scene of a stance.
 
     Args:
@@ -68,11 +93,11 @@ def draw(visualizer: Any, stance: Stance, *, limiting: str | None = None) -> flo
         limiting: the edge to mark, "fl-ml"; else the one nearest the centre of mass.
 
     Returns:
-        The contours' step in m, 0 where the ground has none.
+        What a page should say of the picture.
     """
     span = span_of(stance.rover)
     visualizer.delete()
-    draw_robot(visualizer, stance.rover)
+    unread = draw_robot(visualizer, stance.rover)
     pose_robot(visualizer, stance)
     ground, step = ground_surface(stance.terrain, float(stance.position[0]), float(stance.position[1]), span)
     visualizer["ground"].set_object(surface_object(ground))
@@ -86,4 +111,4 @@ def draw(visualizer: Any, stance: Stance, *, limiting: str | None = None) -> flo
         put("support/edges", support_edges(stance, span, limiting), 0.9)
         put("loads", load_arrows(stance, span), 0.95)
     put("com", com_marker(stance, span), 0.95)
-    return step
+    return Drawn(step, unread)

@@ -30,8 +30,8 @@ def stance_page(stance: Stance, margins: Mapping[str, Margin] | None = None) -> 
         (m.limiting for name in ("polygon", "tip") if (m := known.get(name)) and m.limiting), None
     )
     visualizer, recorder = recording()
-    contour = draw(visualizer, stance, limiting=limiting)
-    pack = Pack({"stance": facts(stance, known, contour)}, {"commands": recorder.stream()})
+    drawn = draw(visualizer, stance, limiting=limiting)
+    pack = Pack({"stance": facts(stance, known, drawn)}, {"commands": recorder.stream()})
     return page("stance", f"{stance.rover.name} on {stance.terrain.label}", pack)
 
 

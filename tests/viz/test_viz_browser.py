@@ -144,3 +144,16 @@ def test_an_open_page_takes_over_another_stance(tmp_path):
         done = subprocess.run([BROWSER, *flags, served.url], capture_output=True, timeout=180, check=False)
     assert b'class="chip bad">tips over<' in done.stdout
     assert served.asked >= 4
+
+
+@needs_browser
+def test_a_study_where_nothing_settled_has_a_page(tmp_path):
+    data, rover, terrain, _ = doubles.dataset(12)
+    data["status"].values[:] = "tips"
+    for name in ("tip", "polygon", "torque", "clearance", "load_n", "z_m"):
+        data[name].values[:] = np.nan
+    page = dom(study_page(data, rover, terrain, {}), tmp_path)
+    assert 'id="loading"' not in page
+    assert ">Case 0<" in page
+    assert 'id="unposed" class="message">' in page
+    assert "no settled case has it" in page

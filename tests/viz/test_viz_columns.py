@@ -221,3 +221,12 @@ def test_unknown_measures_and_empty_studies_are_said(study):
         main_measure(data, "polygn")
     with pytest.raises(StudyError, match="the study has no case"):
         study_page(data.isel(case=slice(0, 0)), doubles.rover(), terrain, {})
+
+
+def test_without_measures_the_lightest_wheel_counts(study):
+    data, _, terrain, _ = study
+    bare = data.drop_vars([n for n in data.data_vars if "better" in data[n].attrs and data[n].ndim == 1])
+    assert main_measure(bare) == "lightest_wheel"
+    assert worst_cases(bare, 1) == [int(np.nanargmin(data["load_n"].values.min(axis=1)))]
+    assert worst_cases(bare, 1, "heaviest_wheel") == [int(np.nanargmax(data["load_n"].values.max(axis=1)))]
+    assert read_back(study_page(bare, doubles.rover(), terrain, {}))[0]["first"] == "lightest_wheel"

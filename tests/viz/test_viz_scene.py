@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from types import SimpleNamespace
 
 import numpy as np
 import pinocchio as pin
@@ -143,3 +144,25 @@ def test_the_named_edge_limits_else_the_nearest(stance):
     edge = np.roll(points, -1, 0) - points
     away = cross(edge, stance.com[:2] - points) / np.linalg.norm(edge, axis=1)
     assert limiting_edge(stance, "no-such") == int(np.argmin(away))
+
+
+def test_a_mesh_that_cannot_be_read_is_said_and_the_rest_is_drawn(tmp_path):
+    broken = tmp_path / "body.stl"
+    broken.write_bytes(b"solid nothing")
+    stance = doubles.stance()
+    parts = len(stance.rover.visuals)
+    stance.rover.visuals = (
+        *stance.rover.visuals,
+        SimpleNamespace(
+            link="x",
+            joint=1,
+            placement=np.eye(4),
+            kind="mesh",
+            size=(1, 1, 1),
+            mesh=broken,
+            rgba=(1, 1, 1, 1),
+        ),
+    )
+    visualizer, recorder = recording()
+    assert draw(visualizer, stance).unread == ("body.stl",)
+    assert sum("/visuals/" in path for path in objects(recorder.commands)) == parts + 6

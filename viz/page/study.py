@@ -20,6 +20,7 @@ from rover_pin.viz.units import ranked, shown, title_of
 if TYPE_CHECKING:
     import xarray as xr
 
+    from rover_pin.numerics import Array
     from rover_pin.rover import Rover
     from rover_pin.statics.stance import Stance
     from rover_pin.terrain import Terrain
@@ -41,10 +42,10 @@ def main_measure(dataset: xr.Dataset, measure: str | None = None) -> str:
     Raises:
         StudyError: the dataset has no such measure, or none at all.
     """
-    found = measures_of(dataset)
+    found = [*measures_of(dataset), *(about["name"] for about in _load_measures(dataset))]
     if measure is None and found:
-        return found[0]
-    if measure not in found:
+        return str(found[0])
+    if measure is None or measure not in found:
         raise StudyError(
             "the study has no such measure",
             element="measure",
@@ -61,11 +62,19 @@ def worst_cases(dataset: xr.Dataset, count: int = 10, measure: str | None = None
         StudyError: the dataset has no such measure.
     """
     name = main_measure(dataset, measure)
-    values = np.asarray(dataset[name].values, dtype=np.float64)
+    values, better = _values(dataset, name)
     usable = (dataset["status"].values.astype(str) == "settled") & ~np.isnan(values)
-    keys = values if dataset[name].attrs["better"] == "high" else -values
+    keys = values if better == "high" else -values
     order = np.argsort(keys, kind="stable")
     return [int(i) for i in order[usable[order]][:count]]
+
+
+def _values(dataset: xr.Dataset, name: str) -> tuple[Array, str]:
+    """A measure's values and which way is better; the lightest and heaviest wheel are measures too."""
+    if name in dataset:
+        return np.asarray(dataset[name].values, dtype=np.float64), str(dataset[name].attrs["better"])
+    loads = np.asarray(dataset["load_n"].values, dtype=np.float64)
+    return (loads.min(axis=1), "high") if name == "lightest_wheel" else (loads.max(axis=1), "low")
 
 
 def save_study_page(
@@ -148,11 +157,8 @@ def page_columns(dataset: xr.Dataset) -> dict[str, Column]:
     loads = np.asarray(dataset["load_n"].values, dtype=np.float64)
     for k, wheel in enumerate(dataset["wheel"].values):
         columns[f"load_n/{wheel}"] = numbers(loads[:, k])
-    if loads.shape[1]:
-        columns["lightest_wheel"], columns["heaviest_wheel"] = (
-            numbers(loads.min(axis=1)),
-            numbers(loads.max(axis=1)),
-        )
+    for about in _load_measures(dataset):
+        columns[about["name"]] = numbers(_values(dataset, about["name"])[0])
     for k, joint in enumerate(dataset["joint"].values):
         columns[f"joint_rad/{joint}"] = numbers(dataset["joint_rad"].values[:, k])
     for name in _varied(dataset):

@@ -24,6 +24,7 @@ function fillFacts(stance) {
     ),
   );
   byId("residuals").textContent = stance.residuals.map((row) => `${row.name.replace(/_m$/, " [m]")} ${row.value === null ? "–" : row.value.toExponential(0)}`).join(" · ");
+  byId("unread").textContent = stance.unread.length ? `not drawn, unreadable: ${stance.unread.join(", ")}` : "";
   byId("contours").hidden = !stance.contour_m;
   byId("contours").textContent = `contours every ${Math.round(1000 * stance.contour_m)} mm`;
   for (const mark of document.querySelectorAll(".needs-loads")) mark.hidden = !stance.loads.length;
