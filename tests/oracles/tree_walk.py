@@ -40,7 +40,7 @@ class Branch:
     child: str
     origin: np.ndarray
     axis: np.ndarray
-    limits: tuple[float, float]
+    limits: tuple[float, float] = (-np.inf, np.inf)
 
 
 @dataclass
@@ -151,6 +151,9 @@ def machine(rover, springs=None) -> Machine:
             com = _numbers(inertial.find("origin"), "xyz")
             masses.append((link.get("name"), float(inertial.find("mass").get("value")), com))
     branches = [_branch(e) for e in top.findall("joint")]
+    for b in branches:
+        if not b.fixed:  # the text is without limits: they are the rover's own
+            b.limits = tuple(float(bound[rover.column[b.name]]) for bound in (rover.lower, rover.upper))
     children = {b.child for b in branches}
     root = next(e.get("name") for e in top.findall("link") if e.get("name") not in children)
     ordered, reached = [], {root}
@@ -175,17 +178,13 @@ def _branch(e) -> Branch:
     axis = e.find("axis")
     along = _numbers(axis, "xyz") if axis is not None else np.array([1.0, 0.0, 0.0])
     kind = e.get("type")
-    limit = e.find("limit")
-    bounds = (-np.inf, np.inf)
-    if limit is not None and kind != "continuous":
-        bounds = (float(limit.get("lower", -np.inf)), float(limit.get("upper", np.inf)))
     place = np.eye(4)
     r, p, y = _numbers(origin, "rpy")
     place[:3, :3] = (_about_z(np.array([y])) @ _about_y(np.array([p])) @ _about_x(np.array([r])))[0]
     place[:3, 3] = _numbers(origin, "xyz")
     return Branch(
         e.get("name"), kind == "prismatic", kind == "fixed", e.find("parent").get("link"),
-        e.find("child").get("link"), place, along / np.linalg.norm(along), bounds,
+        e.find("child").get("link"), place, along / np.linalg.norm(along),
     )  # fmt: skip
 
 
