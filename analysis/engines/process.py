@@ -50,7 +50,8 @@ class Processes:
                 _feed(pool, list(chunks), 2 * count, done)
             except BrokenProcessPool:
                 cure = (
-                    "look at the memory it takes, or give --workers 1; what is finished is kept for --resume"
+                    "in a script, put what runs the study under `if __name__ == '__main__':`; "
+                    "else look at the memory it takes; what is finished is kept for --resume"
                 )
                 raise SolverError("a worker process died", element="engine process", cure=cure) from None
 

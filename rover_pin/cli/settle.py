@@ -61,6 +61,10 @@ def settle(
     from rover_pin.terrain import Terrain
 
     check_outputs(html, png)
+    if png is not None:
+        from rover_pin.viz.browser import find_browser
+
+        find_browser()
     x, y, yaw = place(at)
     mu = _friction(friction)
     ground = Terrain.parse(terrain, spacing=spacing, interpolation=interpolation)

@@ -74,7 +74,10 @@ def _print_worst(data: xr.Dataset, measure: str) -> None:
     )
     for worst in each.worst:
         row = data.sel(case=worst.case)
-        degrees = [math.degrees(row[name]) for name in ("yaw_rad", "roll_rad", "pitch_rad")]
-        shown = [*(fixed(row[name], 3) for name in ("x_m", "y_m")), *(fixed(angle, 2) for angle in degrees)]
+        degrees = [math.degrees(float(row[name])) for name in ("yaw_rad", "roll_rad", "pitch_rad")]
+        shown = [
+            *(fixed(float(row[name]), 3) for name in ("x_m", "y_m")),
+            *(fixed(angle, 2) for angle in degrees),
+        ]
         table.add_row(str(worst.case), worst.limiting or "-", figure(worst.value), *shown)
     print_table(table)

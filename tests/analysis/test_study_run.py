@@ -131,6 +131,14 @@ def test_bounds_are_intervals_around_the_loads() -> None:
     assert data.load_low_n.sel(case=1).values.tolist() == [bounds[str(name)][0] for name in data.wheel.values]
 
 
+@pytest.mark.parametrize("measures_asked", [[], ["loads"], ["bounds"]])
+def test_a_result_without_edges_comes_back_from_its_file(tmp_path: Path, measures_asked: list[str]) -> None:
+    out = tmp_path / "out.nc"
+    result = rough_study(2, measures=measures_asked).run(out=out)
+    assert result.sizes["edge"] == 0
+    xr.testing.assert_identical(result, read(out))
+
+
 def test_off_the_map_is_a_row() -> None:
     data = rough_study(3, vary={"x": {"values": [0.0, 3.9]}, "y": 0}, cases={"sampler": "grid", "n": 2}).run()
     assert data.status.values.tolist() == ["settled", "off_map"]

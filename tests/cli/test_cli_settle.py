@@ -181,6 +181,18 @@ def test_a_page_is_written_and_named_beside_the_object(run: Any, tmp_path: Path)
     assert page.read_text()[:200].lower().lstrip().startswith("<!doctype html")
 
 
+def test_a_picture_without_a_browser_writes_nothing(
+    run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    status, out, err = run(
+        "settle", "rocker_bogie", "--html", tmp_path / "s.html", "--png", tmp_path / "s.png"
+    )
+    assert (status, out) == (2, "")
+    assert err.startswith("error: png: no Chromium or Chrome on PATH")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_info_tells_and_notes(run: Any, tmp_path: Path) -> None:
     status, out, _ = run("info", "rocker_bogie", "--json")
     told = json.loads(out)
