@@ -65,3 +65,11 @@ def test_the_browser_opens_on_it(monkeypatch):
     monkeypatch.setattr(serve_module.webbrowser, "open", opened.append)
     with serve(HTML) as running:
         assert opened == [running.url]
+
+
+def test_closing_twice_does_no_harm():
+    running = serve(HTML, open_browser=False)
+    running.close()
+    running.close()
+    with pytest.raises(OSError, match="refused"):
+        socket.create_connection(("127.0.0.1", running.port), timeout=1).close()

@@ -41,7 +41,7 @@ export function showDetails(state, lightest) {
   for (const name of ["roll", "pitch", "yaw"]) rows.push([name, fixed(cases.at(`${name}_rad`, chosen) * angle, 1), "°"]);
   for (const name of cases.header.varied) {
     const value = cases.at(name, chosen);
-    rows.push([name, typeof value === "string" ? value : number(value, 4), ""]);
+    rows.push([name.replace(/_/g, " "), typeof value === "string" ? value : number(value), ""]);
   }
   const slides = new Map(state.robots[0].nodes.map((node) => [node.name, node.slides]));
   const held = cases.header.joints.filter((name) => cases.constant(`joint_rad/${name}`));
