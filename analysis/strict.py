@@ -9,6 +9,14 @@ from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
 from rover_pin.errors import InputError, StudyError, nearest
 
+PLAIN = {
+    "model_type": "should be a mapping of keys to values",
+    "dict_type": "should be a mapping of keys to values",
+    "tuple_type": "should be a list",
+    "string_type": "should be a word",
+}
+"""Pydantic's kinds of complaint that speak of Python, for people."""
+
 M = TypeVar("M", bound=BaseModel)
 
 
@@ -49,7 +57,7 @@ def _first(failure: ValidationError, file: object, element: str | None) -> Study
     if isinstance(cause, InputError):
         where = dotted([where, cause.element])
         return StudyError(cause.what, file=file, element=where, value=cause.value, cure=cause.cure)
-    what = problem["msg"].removeprefix("Value error, ").removeprefix("Input ")
+    what = PLAIN.get(problem["type"], problem["msg"].removeprefix("Input "))
     if problem["type"] == "missing":
         return StudyError("is missing", file=file, element=where)
     given = problem.get("input")
