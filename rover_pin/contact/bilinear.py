@@ -13,9 +13,14 @@ AROUND = 2
 
 @formula
 def node(table: Array, params: Array, i: int, j: int) -> tuple[float, float, float]:
-    """Node of row i, column j, m; params as for LINEAR in `rover_pin.terrain.surface`."""
+    """Node of row i, column j, m; params as for LINEAR in `rover_pin.terrain.surface`.
+
+    Beyond the map the border's heights go on, as on the surface, and so do nodes and creases.
+    """
     x, y = params[2] + params[4] * j, params[3] + params[4] * i
-    return x, y, params[0] + params[1] * table[i, j]
+    row = min(max(i, 0), table.shape[0] - 1)
+    column = min(max(j, 0), table.shape[1] - 1)
+    return x, y, params[0] + params[1] * table[row, column]
 
 
 @formula
@@ -31,9 +36,9 @@ def on_edge(
 
 
 @formula
-def clamp_index(value: float, most: int) -> int:
-    """The index nearest to `value` within 0 .. most."""
-    return int(min(max(math.floor(value + 0.5), 0.0), float(most)))
+def index(value: float) -> int:
+    """The index nearest to `value`, kept within what an integer holds."""
+    return int(min(max(math.floor(value + 0.5), -1e9), 1e9))
 
 
 @formula
@@ -41,23 +46,20 @@ def nearest_crease(
     table: Array, params: Array, px: float, py: float, pz: float, x: float, y: float
 ) -> tuple[float, float, float, float]:
     """The point nearest to P on nodes and edges within two cells of (x, y), and its distance [m]."""
-    rows, columns = table.shape
-    ci = clamp_index((y - params[3]) / params[4], rows - 1)
-    cj = clamp_index((x - params[2]) / params[4], columns - 1)
+    ci = index((y - params[3]) / params[4])
+    cj = index((x - params[2]) / params[4])
     wx, wy, wz, least = x, y, pz, math.inf
-    for i in range(max(ci - AROUND, 0), min(ci + AROUND, rows - 1) + 1):
-        for j in range(max(cj - AROUND, 0), min(cj + AROUND, columns - 1) + 1):
+    for i in range(ci - AROUND, ci + AROUND + 1):
+        for j in range(cj - AROUND, cj + AROUND + 1):
             ax, ay, az = node(table, params, i, j)
-            if j + 1 < columns:
-                bx, by, bz = node(table, params, i, j + 1)
-                ex, ey, ez, far = on_edge(ax, ay, az, bx, by, bz, px, py, pz)
-                if far < least:
-                    wx, wy, wz, least = ex, ey, ez, far
-            if i + 1 < rows:
-                bx, by, bz = node(table, params, i + 1, j)
-                ex, ey, ez, far = on_edge(ax, ay, az, bx, by, bz, px, py, pz)
-                if far < least:
-                    wx, wy, wz, least = ex, ey, ez, far
+            bx, by, bz = node(table, params, i, j + 1)
+            ex, ey, ez, far = on_edge(ax, ay, az, bx, by, bz, px, py, pz)
+            if far < least:
+                wx, wy, wz, least = ex, ey, ez, far
+            bx, by, bz = node(table, params, i + 1, j)
+            ex, ey, ez, far = on_edge(ax, ay, az, bx, by, bz, px, py, pz)
+            if far < least:
+                wx, wy, wz, least = ex, ey, ez, far
     return wx, wy, wz, math.sqrt(least)
 
 
@@ -114,12 +116,11 @@ def nearest_node(
 
     A node that stands up between two samples is not overlooked.
     """
-    rows, columns = table.shape
     n = min(reach / params[4], 40.0)
     u, v = (x - params[2]) / params[4], (y - params[3]) / params[4]
     bx, by, bz, least = x, y, 0.0, math.inf
-    for i in range(clamp_index(v - n, rows - 1), clamp_index(v + n, rows - 1) + 1):
-        for j in range(clamp_index(u - n, columns - 1), clamp_index(u + n, columns - 1) + 1):
+    for i in range(index(v - n), index(v + n) + 1):
+        for j in range(index(u - n), index(u + n) + 1):
             wx, wy, wz = node(table, params, i, j)
             far = distance(form, frame, cx, cy, cz, ring, wx, wy, wz)
             if far < least:

@@ -94,7 +94,7 @@ def keep(out: Array, count: int, found: Seven, tread: float, apart: float, windo
     """
     wx, wy, wz, nx, ny, nz, far = found
     gap = far - tread
-    if not math.isfinite(gap) or (count > 0 and gap > out[0, 0] + window):
+    if not math.isfinite(gap) or (count > 0 and gap > max(out[0, 0], 0.0) + window):
         return count
     near2 = max(apart, 1e-7) ** 2
     for k in range(count):
@@ -116,6 +116,6 @@ def keep(out: Array, count: int, found: Seven, tread: float, apart: float, windo
         out[k] = out[k - 1]
         k -= 1
     put(out, k, gap, wx, wy, wz, nx, ny, nz)
-    while count > 1 and out[count - 1, 0] > out[0, 0] + window:
+    while count > 1 and out[count - 1, 0] > max(out[0, 0], 0.0) + window:
         count -= 1
     return count

@@ -4,12 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
+from numpy.typing import NDArray
+
 from rover_pin.numerics import Array, formula
 
 
 @formula
 def contact_rows(
-    jacobians: Array, origins: Array, owners: Array, points: Array, directions: Array, basis: Array
+    jacobians: Array,
+    origins: Array,
+    owners: NDArray[np.int64],
+    points: Array,
+    directions: Array,
+    basis: Array,
 ) -> Array:
     """Velocity of body-fixed points along given directions, as rows on the free coordinates.
 

@@ -50,13 +50,13 @@ def search_skin(
     Returns:
         Number of rows.
     """
-    grid = lattice(kind, spacing, form, frame, ring, ball)
+    grid = lattice(kind, spacing, form, frame, ring, ball, window > 0.0)
     near = np.empty((grid[0], grid[1]))
     least = clearances(kind, table, params, form, frame, cx, cy, cz, ring, ball, grid, window, near)
     if not least < math.inf:
         return count
     seeds = np.empty((MOST_SEEDS, 3))
-    n = seek(near, least + slack(window, grid[7], ball, least), grid[6], seeds)
+    n = seek(near, max(least, 0.0) + slack(window, grid[7], ball, least), grid[6], seeds)
     for k in range(n):
         i, j = int(seeds[k, 1]), int(seeds[k, 2])
         p, x, y, _, _ = skin_point(form, frame, cx, cy, cz, ring, ball, grid, i, j)
@@ -82,7 +82,9 @@ def find_contacts(
         axis: (3,) unit, world.
         ring: radius of the ring or half length of the segment, m.
         tread: radius of the ball swept along it, m.
-        window: m; how far above the least gap further minima are told.
+        window: m; further minima are told up to this above the least gap, or above zero where that is less.
+            At 0 only the least is asked for, and the look is coarser: two dips that differ by less than a
+            thousandth of the spacing may be taken for one.
         out: (K, 7) receives gap, point on the surface, unit normal (out of the ground).
 
     Returns:

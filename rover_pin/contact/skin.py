@@ -18,11 +18,13 @@ Grid = tuple[int, int, int, float, float, float, bool, float]
 
 
 @formula
-def lattice(kind: int, spacing: float, form: int, frame: Frame, ring: float, ball: float) -> Grid:
+def lattice(
+    kind: int, spacing: float, form: int, frame: Frame, ring: float, ball: float, thorough: bool
+) -> Grid:
     """How finely to look: rows along the line, columns around the ball.
 
-    Neighbours are at most half of the terrain's `spacing` apart (within the bounds on rows and columns), rows
-    at most an eighth of the shape. A ring whose axis is level needs its lower half only: of two points one
+    Neighbours are at most half of the terrain's `spacing` apart, a quarter where thorough (within the bounds
+    on rows and columns), rows at most an eighth of the shape. A ring whose axis is level needs its lower half only: of two points one
     above the other the lower is the nearer to a height field.
 
     Args:
@@ -32,12 +34,14 @@ def lattice(kind: int, spacing: float, form: int, frame: Frame, ring: float, bal
         frame: nine numbers of `basis`.
         ring: ring radius or half length, m.
         ball: radius of the tube looked at, m.
+        thorough: whether dips that differ by less than a thousandth of the spacing must be told apart.
 
     Returns:
         rows, columns, rows of one cap (segments), first p, step of p, step of the column angle, True for a
         closed ring, arc between rows [m].
     """
-    fine = max(spacing if kind == 3 else 0.5 * spacing, 1e-6)
+    share = 1.0 if kind == 3 else (0.25 if thorough else 0.5)
+    fine = max(share * spacing, 1e-6)
     step = max(min(fine, (ring + ball) / 8.0), 1e-6)
     columns = 1
     if ball > 0.0:
@@ -160,7 +164,9 @@ def clearances(
         bound = row[before] - 2.0 * arc * (i - before)
         if after < rows:
             bound = min(bound, row[after] - 2.0 * arc * (before + STRIDE - i))
-        if bound <= least + slack(window, arc, ball, least) or (form == 1 and i >= rows - 1 - grid[2]):
+        if bound <= max(least, 0.0) + slack(window, arc, ball, least) or (
+            form == 1 and i >= rows - 1 - grid[2]
+        ):
             least = min(least, look(kind, table, params, form, frame, cx, cy, cz, ring, ball, grid, i, near))
     return least
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,14 +12,14 @@ from rover_pin.statics.ground import (
     NOT_NEGATIVE,
     Footing,
     failed,
-    footing_of,
+    let_go,
     support_name,
+    supports,
     tipped,
 )
 from rover_pin.statics.loads import share_loads
 from rover_pin.statics.newton import Landing, land
-from rover_pin.statics.problem import Integers, Problem
-from rover_pin.statics.relax import relax
+from rover_pin.statics.problem import THOROUGH, Integers, Problem
 from rover_pin.statics.stance import Status
 from rover_pin.statics.verdict import free_motions, steadiness, undetermined_joints
 
@@ -29,10 +30,13 @@ OPEN = -2e-7
 """m or rad: a gap below this is a penetration, to be resolved by another set of supports."""
 
 JUMP = 0.2
-"""Share of the wheels' span, and rad: a motion larger than this over one least step is not the same branch."""
+"""Share of the wheels' span, and rad: a motion larger than this over a least step leaves the branch."""
 
 WINDOW = 0.02
 """m: other places of a wheel that may come to touch within a step."""
+
+NEAR = 2e-3
+"""m or rad: supports this near may take over within a least step."""
 
 FIRST_STEP = 0.25
 LEAST_STEP = 1.0 / 256.0
@@ -47,7 +51,7 @@ def straight(problem: Problem, footing: Footing, z: Array, terrain: Terrain) -> 
     landing = land(problem, z, terrain, footing.active, footing.loops, reach=JUMP * 2.0, iterations=9)
     if landing is None or not stands(problem, landing, footing.sign):
         return None
-    return Footing(landing.z, Status.SETTLED, None, "", footing.active, footing.loops, landing.sign)
+    return replace(footing, z=landing.z)
 
 
 def stands(problem: Problem, landing: Landing, sign: float) -> bool:
@@ -78,9 +82,7 @@ def follow(
     """
     s, step = 0.0, FIRST_STEP if steps is None else 1.0 / steps
     least = LEAST_STEP if steps is None else step
-    current = Footing(
-        z, footing.status, footing.limiting, footing.reason, footing.active, footing.loops, footing.sign
-    )
+    current = replace(footing, z=z)
     count = 0
     while s < 1.0:
         count += 1
@@ -90,11 +92,9 @@ def follow(
             )
         target = 1.0 if s + step > 1.0 - 1e-12 else s + step
         raised = terrain if target == 1.0 else terrain.blended(level, target)
-        landing = land(problem, current.z, raised, current.active, current.loops, reach=JUMP)
+        landing = land(problem, current.z, raised, current.active, current.loops, window=THOROUGH, reach=JUMP)
         if landing is not None and stands(problem, landing, current.sign):
-            current = Footing(
-                landing.z, Status.SETTLED, None, "", current.active, current.loops, landing.sign
-            )
+            current = replace(current, z=landing.z)
             s = target
             if steps is None:
                 step = min(2.0 * step, FIRST_STEP)
@@ -120,9 +120,13 @@ def _let_go(
     lost = None
     if landing is not None and np.min(landing.multipliers, initial=0.0) < NOT_NEGATIVE * problem.weight:
         lost = support_name(problem, landing.state, int(np.argmin(landing.multipliers)))
-    rest = relax(problem, current.z, terrain, window=WINDOW)
-    found = footing_of(problem, rest, terrain, lost or _most_moved(problem, current.z, rest.state.z))
+    exchanged = _exchange(problem, current, terrain)
+    if exchanged is not None:
+        return exchanged
+    found = let_go(problem, current.z, terrain, WINDOW, lost)
     if found.status is not Status.SETTLED:
+        if found.limiting is None and found.status is Status.TIPS:
+            return tipped(problem, found.z, _most_moved(problem, current.z, found.z))
         return found
     moved = np.abs(found.z - current.z) / problem.unit
     if np.max(moved) > JUMP and lost is None:
@@ -130,6 +134,19 @@ def _let_go(
     if np.max(moved) > JUMP and lost is None:
         return tipped(problem, found.z, _most_moved(problem, current.z, found.z))
     return found
+
+
+def _exchange(problem: Problem, current: Footing, terrain: Terrain) -> Footing | None:
+    """Another set of the supports that touch, or are about to, on which the rover stands just as well."""
+    state = problem.state(current.z, terrain, THOROUGH)
+    near = np.flatnonzero(state.slack < NEAR)
+    if len(near) + len(current.loops) < problem.n:
+        return None
+    active = supports(problem, state, near, np.arange(len(state.slack)))
+    landing = land(problem, current.z, terrain, active, current.loops, window=THOROUGH, reach=JUMP)
+    if landing is None or not stands(problem, landing, landing.sign):
+        return None
+    return replace(current, z=landing.z, active=active, sign=landing.sign)
 
 
 def _undetermined(problem: Problem, current: Footing, terrain: Terrain) -> Integers:

@@ -7,17 +7,21 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.optimize import nnls
 
 from rover_pin.numerics import Array
 from rover_pin.statics.loads import STOPPED, Loads, share_loads
 from rover_pin.statics.newton import Landing, independent_rows, land
-from rover_pin.statics.problem import Integers, Problem, State
+from rover_pin.statics.problem import THOROUGH, Integers, Problem, State
 from rover_pin.statics.relax import Rest, relax
 from rover_pin.statics.stance import Status
 from rover_pin.statics.start import level_start
 
 if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
+
+FALLING = 1.0
+"""Rad of tilt beyond which a rover that lost a support, and that no support can hold any more, falls over."""
 
 NOT_NEGATIVE = -1e-9
 """Share of the weight below which a load counts as negative."""
@@ -60,15 +64,31 @@ def settle_on_level(problem: Problem, posture: Mapping[str, float], ground: Terr
     """
     z = level_start(problem, posture, ground)
     held_up = share_loads(problem, problem.state(z, ground, window=1e-5))
-    rest = relax(problem, z, ground, window=1e-5)
-    footing = footing_of(
-        problem, rest, ground, heaviest_loser(problem, held_up, problem.state(z, ground, 1e-5))
-    )
+    lost = heaviest_loser(problem, held_up, problem.state(z, ground, 1e-5))
+    footing = let_go(problem, z, ground, 1e-5, lost)
     if footing.status is Status.SETTLED:
         loose = _fell_to_its_stop(problem, z, footing)
         if loose is not None:
             reason = f"passive joint {loose} falls to its stop before any wheel beyond it bears"
             return failed(footing.z, Status.LOOSE, loose, reason)
+    return footing
+
+
+def let_go(problem: Problem, z: Array, terrain: Terrain, window: float, lost: str | None) -> Footing:
+    """Let the rover fall from z; a rest that Newton cannot finish is followed further down.
+
+    Args:
+        problem: the rover.
+        z: (n,) start.
+        terrain: what it falls on.
+        window: m, of the contacts looked at.
+        lost: the support that gave way, or None.
+    """
+    first = relax(problem, z, terrain, window=window, resting=1e-4)
+    footing = footing_of(problem, first, terrain, lost)
+    if first.end == "rest" and footing.status is not Status.SETTLED:
+        rest = relax(problem, first.state.z, terrain, window=window)
+        footing = footing_of(problem, rest, terrain, lost)
     return footing
 
 
@@ -81,6 +101,8 @@ def footing_of(problem: Problem, rest: Rest, terrain: Terrain, lost: str | None)
         column = problem.reduction.columns[rest.column]
         joint = problem.rover.dof_names[column]
         return failed(z, Status.LOOSE, joint, f"passive joint {joint} falls without bound")
+    if rest.end == "lost" and lost is not None and problem.tilt(z) > FALLING:
+        return tipped(problem, z, lost)
     if rest.end == "lost":
         return failed(z, Status.NO_CONVERGENCE, None, "no stance was found within the steps allowed")
     active = carrying(problem, rest)
@@ -95,7 +117,7 @@ def polish(
     problem: Problem, rest: Rest, terrain: Terrain, active: Integers, loops: Integers
 ) -> Landing | None:
     """Newton from a rest; with several contacts a wheel where one contact a wheel is not enough."""
-    landing = land(problem, rest.state.z, terrain, active, loops, reach=0.05)
+    landing = land(problem, rest.state.z, terrain, active, loops, window=THOROUGH, reach=0.05)
     if landing is not None:
         return landing
     rows = np.flatnonzero(rest.multipliers > -NOT_NEGATIVE * problem.weight)
@@ -104,38 +126,31 @@ def polish(
 
 
 def carrying(problem: Problem, rest: Rest) -> Integers:
-    """Supports that carry at a rest, independent ones, as rows of a state with one contact a shape."""
+    """Supports that can carry alone at a rest, as rows of a state with one contact a shape."""
     state = rest.state
-    contacts = len(state.owners)
-    shapes = len(problem.rover.shapes)
-    rows = np.flatnonzero(rest.multipliers > -NOT_NEGATIVE * problem.weight)
-    seen: dict[int, int] = {}
-    for row in rows:
-        plain = int(state.owners[row]) if row < contacts else int(row) - contacts + shapes
-        seen.setdefault(plain, int(row))
-    chosen = list(seen.values())
-    loops = independent_rows(state.closing)
-    together = np.vstack([state.closing[loops], state.motion[chosen]])
-    kept = independent_rows(together)
-    # Loops first: a support that loops already imply is the one to leave out.
-    plain = np.array(list(seen), dtype=np.int64)
-    if len(kept) == len(together):
-        return np.sort(plain)
-    return np.sort(plain[_greedy(state.closing[loops], state.motion[chosen])])
+    contacts, shapes = len(state.owners), len(problem.rover.shapes)
+    plain = np.arange(len(state.slack)) - contacts + shapes
+    plain[:contacts] = state.owners
+    near = np.flatnonzero(rest.multipliers > -NOT_NEGATIVE * problem.weight)
+    return supports(problem, state, near, plain)
 
 
-def _greedy(base: Array, rows: Array) -> Integers:
-    """Indices of rows that, taken in order, each add to the rank of `base`."""
-    kept: list[int] = []
-    current = base
-    rank = int(np.linalg.matrix_rank(current)) if current.size else 0
-    for i, row in enumerate(rows):
-        extended = np.vstack([current, row])
-        grown = int(np.linalg.matrix_rank(extended, tol=1e-9))
-        if grown > rank:
-            kept.append(i)
-            current, rank = extended, grown
-    return np.array(kept, dtype=np.int64)
+def supports(problem: Problem, state: State, near: Integers, plain: Integers) -> Integers:
+    """As many of the rows `near` as are needed to carry the load, none with a negative one.
+
+    A basic solution of non-negative least squares, whose support is independent where supports are redundant.
+
+    Args:
+        problem: the rover.
+        state: the equations.
+        near: rows that may carry.
+        plain: (m,) each row's number in a state with one contact a shape.
+    """
+    weigh = problem.unit / problem.span
+    sides = state.force[near].T * weigh[:, None]
+    pulls = state.closing.T * weigh[:, None]
+    found = nnls(np.hstack([sides, pulls, -pulls]), state.load / problem.weight * weigh)[0][: len(near)]
+    return np.array(sorted({int(plain[row]) for row in near[found > -NOT_NEGATIVE]}), dtype=np.int64)
 
 
 def heaviest_loser(problem: Problem, loads: Loads, state: State) -> str | None:

@@ -30,7 +30,8 @@ def free_coordinates(
         rover: the rover.
         held: joints that stay at the posture.
         posture: joint values [rad or m]; 0 where silent.
-        x, y: of the base [m].
+        x: of the base [m].
+        y: of the base [m].
         yaw: of the base [rad].
 
     Raises:

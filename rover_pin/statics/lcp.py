@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from numpy.typing import NDArray
+
 from rover_pin.numerics import Array, formula
 
 
@@ -68,7 +70,7 @@ def lemke(matrix: Array, vector: Array, pivots: int) -> tuple[Array, bool]:
 
 
 @formula
-def _leaving_row(table: Array, basis: Array, entering: int) -> int:
+def _leaving_row(table: Array, basis: NDArray[np.int64], entering: int) -> int:
     """Ratio test; the artificial variable leaves whenever it may, else the largest pivot among ties."""
     m = table.shape[0]
     last = table.shape[1] - 1

@@ -82,7 +82,8 @@ def land(
         return None
     determinate = held == n
     start = z
-    multipliers, pulls = np.zeros(len(active)), np.zeros(len(loops))
+    multipliers: Array = np.zeros(len(active))
+    pulls: Array = np.zeros(len(loops))
     if not determinate:
         multipliers, pulls = _first_guess(problem.state(z, terrain, window), active, loops, problem)
     size = -1
@@ -126,7 +127,8 @@ def land(
 def _first_guess(state: State, active: Integers, loops: Integers, problem: Problem) -> tuple[Array, Array]:
     """Multipliers that come nearest to balance at the start."""
     sides = np.vstack([state.force[active], state.closing[loops]]).T * problem.unit[:, None]
-    found = np.linalg.lstsq(sides, state.load * problem.unit, rcond=1e-9)[0]
+    solved = np.linalg.lstsq(sides, state.load * problem.unit, rcond=1e-9)[0]
+    found = np.asarray(solved, dtype=np.float64)
     return found[: len(active)], found[len(active) :]
 
 

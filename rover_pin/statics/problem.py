@@ -24,6 +24,9 @@ Integers = NDArray[np.int64]
 
 CONTACTS_PER_SHAPE = 8
 
+THOROUGH = 1e-10
+"""m: a window this small asks for one contact a shape, and for the closer look of `find_contacts`."""
+
 
 @dataclass(frozen=True)
 class State:
@@ -172,7 +175,7 @@ class Problem:
         )
 
     def search(self, at: Kinematics, terrain: Terrain, window: float) -> tuple[Integers, Array]:
-        """Contacts of every shape: owners (c,) and rows (c, 7); the least of each shape first in its group."""
+        """Contacts of every shape: owners (c,) and rows (c, 7), each shape's least first."""
         shapes = self.shapes
         centers, axes = self.place_shapes(at)
         found, counts = self._found, self._counts
@@ -180,7 +183,7 @@ class Problem:
             terrain.kind, terrain.table, terrain.params, terrain.spacing,
             shapes.forms, centers, axes, shapes.rings, shapes.treads, window, found, counts,
         )  # fmt: skip
-        if window == 0.0:
+        if window <= THOROUGH:
             return np.arange(len(counts)), found[:, 0].copy()
         owners = np.repeat(np.arange(len(counts)), counts)
         rows = np.concatenate([found[i, : counts[i]] for i in range(len(counts))])

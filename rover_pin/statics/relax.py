@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 STEPS = 400
 DAMPING = 1e-3
 LEAST_DAMPING = 1e-6
+MOST_DAMPING = 100.0
 """Shares of the damping at which a body falls its own span in a step under its weight.
 
 Steady motion is given longer steps; a reversal, shorter and stiffer ones.
@@ -33,6 +34,8 @@ TRUST = 0.1
 RESTING = 1e-7
 """Share of the span, or rad: what moves less rests, and Newton takes the last step."""
 UPRIGHT = np.radians(80.0)
+SOFTNESS = 1e-12
+"""Give of a support, as a share of the give of the whole rover, which shares loads that are redundant."""
 FAR = 2.0 * np.pi
 
 
@@ -44,7 +47,7 @@ class Rest:
         state: the equations there.
         multipliers: (m,) N >= 0 of the state's rows.
         pulls: (k,) of the loops.
-        end: `rest`, `over` (tilt beyond 80 deg), `away` (a coordinate without bound), `lost` (no convergence).
+        end: `rest`, `over` (tilt beyond 80 deg), `away` (a coordinate without bound), `lost` (unsolved).
         column: for `away`, the free coordinate that left.
     """
 
@@ -55,7 +58,15 @@ class Rest:
     column: int = -1
 
 
-def relax(problem: Problem, z: Array, terrain: Terrain, *, window: float, steps: int = STEPS) -> Rest:
+def relax(
+    problem: Problem,
+    z: Array,
+    terrain: Terrain,
+    *,
+    window: float,
+    steps: int = STEPS,
+    resting: float = RESTING,
+) -> Rest:
     """Follow the damped motion from z until nothing moves.
 
     Args:
@@ -64,6 +75,7 @@ def relax(problem: Problem, z: Array, terrain: Terrain, *, window: float, steps:
         terrain: what it falls on.
         window: m; contacts of a shape within this of its least gap are rows too.
         steps: most steps.
+        resting: share of the span, or rad; a step below this is rest.
     """
     start = z
     trust, damping = TRUST, DAMPING
@@ -76,15 +88,20 @@ def relax(problem: Problem, z: Array, terrain: Terrain, *, window: float, steps:
             multipliers = np.zeros(len(state.slack))
         answer = _step(problem, state, terrain, multipliers, pulls, window, damping)
         if answer is None:
-            return Rest(state, multipliers, pulls, "lost")
+            if damping >= MOST_DAMPING:
+                return Rest(state, multipliers, pulls, "lost")
+            damping = min(100.0 * damping, MOST_DAMPING)
+            continue
         step, multipliers, pulls = answer
         size = float(np.max(np.abs(step) / problem.unit)) if len(step) else 0.0
-        if size < RESTING:
+        if size < resting:
             return Rest(state, multipliers, pulls, "rest")
         move = step * min(1.0, trust / size)
         turned = float((move / problem.unit) @ (last / problem.unit))
         if turned < 0.0:
-            trust, damping = max(0.5 * trust, 1e-6), min(4.0 * damping, DAMPING)
+            trust, damping = max(0.5 * trust, 1e-3 * TRUST), max(damping, min(4.0 * damping, DAMPING))
+        elif size > 2.0 * TRUST:
+            damping = min(damping * size / TRUST, MOST_DAMPING)
         elif turned > 0.0:
             trust, damping = min(1.5 * trust, TRUST), max(0.25 * damping, LEAST_DAMPING)
         last = move
@@ -131,10 +148,13 @@ def _step(
         return None
     freely, by_force = response[:, 0], response[:, 1:]
     lcp = state.motion @ by_force[:n]
-    lcp[np.diag_indices_from(lcp)] += 1e-12 * max(float(np.trace(lcp)), 1e-300)
-    found, solved = lemke(lcp, state.slack + state.motion @ freely[:n], 50 + 20 * len(state.slack))
+    scale = 1.0 / np.sqrt(np.maximum(np.abs(np.diag(lcp)), 1e-300))
+    lcp = lcp * np.outer(scale, scale)
+    lcp[np.diag_indices_from(lcp)] += SOFTNESS
+    found, solved = lemke(lcp, scale * (state.slack + state.motion @ freely[:n]), 50 + 20 * len(state.slack))
     if not solved:
         return None
+    found = found * scale
     whole = freely + by_force @ found
     pulled = np.zeros(len(state.closure))
     pulled[loops] = whole[n:]

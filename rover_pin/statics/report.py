@@ -11,10 +11,10 @@ import pinocchio as pin
 from rover_pin.mechanism import Kinematics
 from rover_pin.numerics import Array, cross, frozen
 from rover_pin.statics import residuals
-from rover_pin.statics.ground import Footing, failed
+from rover_pin.statics.ground import Footing, failed, let_go
 from rover_pin.statics.loads import Loads, share_loads
 from rover_pin.statics.problem import Problem, State
-from rover_pin.statics.relax import relax
+from rover_pin.statics.relax import UPRIGHT
 from rover_pin.statics.stance import Contact, Stance, Status
 from rover_pin.statics.verdict import (
     free_motions,
@@ -27,12 +27,17 @@ from rover_pin.statics.verdict import (
 if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
 
+ACCEPTED = {"equilibrium": 1e-6, "gap_m": 1e-6, "loop_m": 1e-6, "complementarity": 1e-6}
+"""Largest residuals of a stance."""
+
 BALANCED = 1e-7
 """Share of the weight that may stay unbalanced before a pose is no stance."""
 
 
 def report(problem: Problem, footing: Footing, terrain: Terrain, locked: tuple[str, ...]) -> Stance:
     """The stance of a footing; a pose that fails a check is a status, never a stance."""
+    if footing.status is Status.SETTLED and problem.tilt(footing.z) > UPRIGHT:
+        footing = failed(footing.z, Status.TIPS, None, "it stands on its side: tilt above 80 deg")
     off = wheel_off_map(problem, problem.locate(footing.z), terrain)
     if off is not None:
         footing = failed(footing.z, Status.OFF_MAP, off, f"{off} reaches beyond the map")
@@ -40,10 +45,19 @@ def report(problem: Problem, footing: Footing, terrain: Terrain, locked: tuple[s
         return _stance(problem, footing, terrain, locked, None, None)
     state = problem.state(footing.z, terrain, window=1e-5)
     loads = share_loads(problem, state)
+    start = footing.z
     footing, undetermined = _judge(problem, footing, terrain, state, loads)
+    if footing.status is Status.SETTLED and footing.z is not start:
+        return report(problem, footing, terrain, locked)
     if footing.status is not Status.SETTLED:
         return _stance(problem, footing, terrain, locked, None, None)
-    return _stance(problem, footing, terrain, locked, state, loads, undetermined)
+    stance = _stance(problem, footing, terrain, locked, state, loads, undetermined)
+    for name, most in ACCEPTED.items():
+        if not stance.residuals[name] <= most:
+            reason = f"the residual {name} of the pose found is {stance.residuals[name]:.2g}"
+            footing = failed(footing.z, Status.NO_CONVERGENCE, None, reason)
+            return _stance(problem, footing, terrain, locked, None, None)
+    return stance
 
 
 def _judge(
@@ -72,15 +86,15 @@ def _judge(
 
 
 def _topple(problem: Problem, z: Array, terrain: Terrain, direction: Array) -> Footing:
-    """An equilibrium that does not stay: it leaves along `direction`; name what gives way."""
+    """An equilibrium that does not stay leaves along `direction`: where it rests, or what gives way."""
     push = 1e-3 * direction / max(float(np.max(np.abs(direction))), 1e-12) * problem.unit
     names = [problem.rover.dof_names[column] for column in problem.reduction.columns]
     moved = np.abs(direction)
     moved[:3] = 0.0
     joint = names[int(np.argmax(moved))] if np.max(moved, initial=0.0) > 1e-3 else None
-    rest = relax(problem, z + push, terrain, window=1e-3)
-    if rest.end == "away" and joint is not None:
-        return failed(rest.state.z, Status.LOOSE, joint, f"passive joint {joint} falls without bound")
+    found = let_go(problem, z + push, terrain, 1e-3, joint)
+    if found.status in (Status.LOOSE, Status.SETTLED):
+        return found
     reason = f"joint {joint} gives way and nothing catches it" if joint else "it balances and would fall over"
     return failed(z, Status.TIPS, joint, reason)
 

@@ -1,7 +1,7 @@
 """Residuals of a stance, recomputed from the model by other means than the solver's.
 
-Shared with the solver: Pinocchio, and the terrain's surface. Not shared: the contact search (here the distance
-of a point to a circle, in closed form, and a dense look at the ring), the rows (frame Jacobians of the
+Shared with the solver: Pinocchio, and the terrain's surface. Not shared: the contact search (here the
+distance of a point to a circle, in closed form, and a dense look at the ring), the rows (frame Jacobians of the
 wheels' links and the centre of mass), the reduction (all couplings are checked on q itself).
 """
 
@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pinocchio as pin
+from numpy.typing import NDArray
 
 from rover_pin.contact.place import SEGMENT
-from rover_pin.mechanism import Kinematics
+from rover_pin.mechanism import Bilateral, Kinematics
 from rover_pin.numerics import Array, cross
 from rover_pin.statics.stance import Contact
 
@@ -86,7 +87,8 @@ def gap(rover: Rover, at: Kinematics, terrain: Terrain, contacts: Sequence[Conta
 
 def closure(rover: Rover, at: Kinematics) -> float:
     """Largest violation of loops and couplings [m or rad]."""
-    parts = [np.abs(element.residual(at)) for element in (*rover.loops, *rover.couplings)]
+    elements: list[Bilateral] = [*rover.loops, *rover.couplings]
+    parts = [np.abs(element.residual(at)) for element in elements]
     return float(np.max(np.concatenate(parts))) if parts else 0.0
 
 
@@ -98,13 +100,13 @@ def complementarity(contacts: Sequence[Contact], gaps: Mapping[str, float], weig
     return float(max([0.0, *products, *negative, *open_gaps]))
 
 
-def _turns(model: Any, free: Array) -> Array:
+def _turns(model: Any, free: Array) -> NDArray[np.bool_]:
     """(n,) whether a direction turns the joint that it moves most."""
     leading = np.argmax(np.abs(free), axis=0)
-    return np.array(
-        [column >= 3 if column < 6 else not model.joints[int(column) - 4].shortname().startswith("JointModelP")
-         for column in leading]
-    )  # fmt: skip
+    kinds = [model.joints[i].shortname() for i in range(2, model.njoints)]
+    turns = np.array([False] * 3 + [True] * 3 + [not kind.startswith("JointModelP") for kind in kinds])
+    chosen: NDArray[np.bool_] = turns[leading]
+    return chosen
 
 
 def _deepest(rover: Rover, centers: Array, axes: Array, terrain: Terrain) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
@@ -51,7 +52,8 @@ def settle(
     Args:
         rover: what stands.
         terrain: what it stands on.
-        x, y: of the root link's frame [m, world].
+        x: of the root link's frame [m, world].
+        y: of the root link's frame [m, world].
         yaw: of the root link's frame [rad].
         posture: a name, joint values [rad or m], or `{"clearance": m}`: the belly's clearance on level
             ground, reached by moving the actuated joints least from home. Default: `home`, else zero.
@@ -78,11 +80,13 @@ def settle(
         reason = footing.reason + " (already on level ground)"
         return report(problem, failed(z, footing.status, footing.limiting, reason), terrain, locked)
     found = straight(problem, footing, z, terrain)
-    if found is None and wheel_off_map(problem, problem.locate(z), terrain) is not None:
-        found = failed(z, Status.OFF_MAP, None, "a wheel reaches beyond the map")
-    if found is None:
-        found = follow(problem, footing, z, terrain, level)
-    return report(problem, found, terrain, locked)
+    if found is not None:
+        stance = report(problem, found, terrain, locked)
+        if stance.status is not Status.NO_CONVERGENCE:
+            return stance
+    if wheel_off_map(problem, problem.locate(z), terrain) is not None:
+        return report(problem, replace(footing, z=z), terrain, locked)
+    return report(problem, follow(problem, footing, z, terrain, level), terrain, locked)
 
 
 def on_level(

@@ -62,7 +62,9 @@ def steadiness(problem: Problem, state: State, loads: Loads, terrain: Terrain, m
     scaled = matrix * problem.unit[None, :] * problem.unit[:, None] / (problem.weight * problem.span)
     carrying = loads.touching[loads.multipliers[loads.touching] > 0.0]
     sides = np.vstack([state.force[carrying], state.closing]) * problem.unit
-    across = null_space(sides, rcond=1e-9) if len(sides) else np.eye(problem.n)
+    across = np.eye(problem.n)
+    if len(sides):
+        across = np.asarray(null_space(sides, rcond=1e-9), dtype=np.float64)
     if across.shape[1] != motions.shape[1]:
         across = motions
     reduced: Array = np.linalg.lstsq(across.T @ motions, across.T @ scaled @ motions, rcond=None)[0]
