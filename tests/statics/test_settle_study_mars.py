@@ -56,7 +56,7 @@ def test_the_check_sees_what_is_wrong():
     unbalanced, gap = residuals(stance)
     assert unbalanced < 1e-12
     assert gap < 1e-12
-    high = dataclasses.replace(stance, position=stance.position + [0.0, 0.0, 1e-3])
+    high = dataclasses.replace(stance, position=stance.position + np.array([0.0, 0.0, 1e-3]))
     assert residuals(high)[1] == pytest.approx(1e-3, rel=0.1)
     first = dataclasses.replace(stance.contacts[0], load=stance.contacts[0].load + 1.0)
     heavy = dataclasses.replace(stance, contacts=(first, *stance.contacts[1:]))
