@@ -255,6 +255,16 @@ def test_rough_ground_gives_a_verdict_everywhere():
         assert stance.settled or stance.limiting
 
 
+@pytest.mark.parametrize("name", ["caster3", "trailing4", "four_bar", "bogie_min"])
+def test_every_small_rover_gets_a_verdict_on_rough_ground(name):
+    generator = np.random.default_rng(13)
+    for i in range(12):
+        ground = rp.Terrain.rough(i % 3, (0.03, 0.06)[i % 2], 0.7)
+        x, y, yaw = *generator.uniform(-8, 8, 2), generator.uniform(-3, 3)
+        stance = rp.settle(fixture(name), ground, x=x, y=y, yaw=yaw)
+        assert stance.status in (S.SETTLED, S.TIPS, S.GROUNDED), (i, x, y, yaw, stance)
+
+
 def test_two_wheels_alone_fall_over(tmp_path):
     made = Builder("bicycle").link("base_link", 10, (0, 0, 0.2))
     for name, x in (("f", 0.4), ("b", -0.4)):
