@@ -32,6 +32,9 @@ OPEN = -2e-7
 JUMP = 0.2
 """Share of the wheels' span, and rad: a motion larger than this over a least step leaves the branch."""
 
+FALL = 0.05
+"""Share of the span, and rad: a rover that lost a support and moved this far without a rest falls."""
+
 WINDOW = 0.02
 """m: other places of a wheel that may come to touch within a step."""
 
@@ -124,6 +127,9 @@ def _let_go(
     if exchanged is not None:
         return exchanged
     found = let_go(problem, current.z, terrain, WINDOW, lost)
+    fell = float(np.max(np.abs(found.z - current.z) / problem.unit)) > FALL
+    if found.status is Status.NO_CONVERGENCE and lost is not None and fell:
+        return tipped(problem, found.z, lost)
     if found.status is not Status.SETTLED:
         if found.limiting is None and found.status is Status.TIPS:
             return tipped(problem, found.z, _most_moved(problem, current.z, found.z))

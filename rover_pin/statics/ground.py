@@ -13,12 +13,22 @@ from rover_pin.numerics import Array
 from rover_pin.statics.loads import STOPPED, Loads, share_loads
 from rover_pin.statics.newton import Landing, independent_rows, land
 from rover_pin.statics.problem import THOROUGH, Integers, Problem, State
-from rover_pin.statics.relax import Rest, relax
+from rover_pin.statics.relax import FAR, Rest, relax
 from rover_pin.statics.stance import Status
 from rover_pin.statics.start import level_start
+from rover_pin.statics.verdict import way_out
 
 if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
+
+OUT_OF_HAND = 2.0
+"""Shares of the span, or rad: a joint that moves further on level ground is held by nothing."""
+
+RESTS = (1e-4, 3e-5, 1e-5, 1e-7)
+"""Shares of the span, or rad: steps small enough to try Newton's last step, one after the other."""
+
+PUSH = 1e-3
+"""Share of the span, or rad: the nudge that tells a stance that stays from one that only balances."""
 
 FALLING = 1.0
 """Rad of tilt beyond which a rover that lost a support, and that no support can hold any more, falls over."""
@@ -65,7 +75,12 @@ def settle_on_level(problem: Problem, posture: Mapping[str, float], ground: Terr
     z = level_start(problem, posture, ground)
     held_up = share_loads(problem, problem.state(z, ground, window=1e-5))
     lost = heaviest_loser(problem, held_up, problem.state(z, ground, 1e-5))
-    footing = let_go(problem, z, ground, 1e-5, lost)
+    footing = let_go(problem, z, ground, 1e-5, lost, OUT_OF_HAND)
+    if footing.status is Status.SETTLED:
+        state = problem.state(footing.z, ground, window=1e-5)
+        out = way_out(problem, state, share_loads(problem, state), ground)
+        if out is not None:
+            footing = let_go(problem, footing.z + PUSH * out, ground, 1e-5, lost, OUT_OF_HAND)
     if footing.status is Status.SETTLED:
         loose = _fell_to_its_stop(problem, z, footing)
         if loose is not None:
@@ -74,7 +89,9 @@ def settle_on_level(problem: Problem, posture: Mapping[str, float], ground: Terr
     return footing
 
 
-def let_go(problem: Problem, z: Array, terrain: Terrain, window: float, lost: str | None) -> Footing:
+def let_go(
+    problem: Problem, z: Array, terrain: Terrain, window: float, lost: str | None, far: float = FAR
+) -> Footing:
     """Let the rover fall from z; a rest that Newton cannot finish is followed further down.
 
     Args:
@@ -83,12 +100,14 @@ def let_go(problem: Problem, z: Array, terrain: Terrain, window: float, lost: st
         terrain: what it falls on.
         window: m, of the contacts looked at.
         lost: the support that gave way, or None.
+        far: shares of the span, or rad; a joint that moves further is lost.
     """
-    first = relax(problem, z, terrain, window=window, resting=1e-4)
-    footing = footing_of(problem, first, terrain, lost)
-    if first.end == "rest" and footing.status is not Status.SETTLED:
-        rest = relax(problem, first.state.z, terrain, window=window)
+    for resting in RESTS:
+        rest = relax(problem, z, terrain, window=window, resting=resting, far=far)
         footing = footing_of(problem, rest, terrain, lost)
+        z = rest.state.z
+        if rest.end != "rest" or footing.status is Status.SETTLED:
+            break
     return footing
 
 

@@ -18,6 +18,9 @@ ITERATIONS = 25
 STEP = 1e-7
 """Share of the span, or rad: Newton squares its error, so the step that is this small is the last."""
 
+BALANCE = 1e-6
+"""Share of weight times span that may stay out of balance after the last step."""
+
 
 @dataclass(frozen=True)
 class Landing:
@@ -97,7 +100,7 @@ def land(
         sides = np.vstack([state.force[active], state.closing[loops]])
         try:
             if determinate:
-                step = np.linalg.solve(rows, -gaps)
+                step, pushed = np.linalg.solve(rows, -gaps), np.zeros(n)
                 forces = np.linalg.solve(sides.T, state.load)
             else:
                 full = np.zeros(size)
@@ -109,16 +112,21 @@ def land(
                 now = np.concatenate([multipliers, pulls])
                 solution = _solve(matrix, np.concatenate([sides.T @ now - state.load, -gaps]), problem)
                 step, forces = solution[:n], now + solution[n:]
+                pushed = stiffness @ step
         except np.linalg.LinAlgError:
             return None
         if not (np.all(np.isfinite(step)) and np.all(np.isfinite(forces))):
             return None
-        multipliers, pulls = forces[: len(active)], forces[len(active) :]
+        multipliers = np.asarray(forces[: len(active)], dtype=np.float64)
+        pulls = np.asarray(forces[len(active) :], dtype=np.float64)
         moved = np.max(np.abs(z + step - start) / problem.unit)
         if moved > reach:
             return None
         largest = np.max(np.abs(step) / problem.unit)
         if largest < STEP:
+            rest = np.max(np.abs(state.load + pushed - sides.T @ forces) * problem.unit)
+            if rest > BALANCE * problem.weight * problem.span:
+                return None
             return _landing(z + step, state, active, multipliers, loops, pulls, rows, determinate)
         z = z + step
     return None

@@ -66,6 +66,7 @@ def relax(
     window: float,
     steps: int = STEPS,
     resting: float = RESTING,
+    far: float = FAR,
 ) -> Rest:
     """Follow the damped motion from z until nothing moves.
 
@@ -76,6 +77,7 @@ def relax(
         window: m; contacts of a shape within this of its least gap are rows too.
         steps: most steps.
         resting: share of the span, or rad; a step below this is rest.
+        far: shares of the span, or rad; a joint that moves further is lost.
     """
     start = z
     trust, damping = TRUST, DAMPING
@@ -110,7 +112,7 @@ def relax(
             return Rest(problem.state(z, terrain, window), multipliers, pulls, "over")
         travelled = np.abs(z - start) / problem.unit
         travelled[:3] = 0.0
-        if np.max(travelled) > FAR:
+        if np.max(travelled) > far:
             return Rest(state, multipliers, pulls, "away", int(np.argmax(travelled)))
         state = problem.state(z, terrain, window)
     return Rest(state, np.zeros(len(state.slack)), pulls, "lost")

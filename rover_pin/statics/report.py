@@ -11,7 +11,7 @@ import pinocchio as pin
 from rover_pin.mechanism import Kinematics
 from rover_pin.numerics import Array, cross, frozen
 from rover_pin.statics import residuals
-from rover_pin.statics.ground import Footing, failed, let_go
+from rover_pin.statics.ground import PUSH, Footing, failed, let_go
 from rover_pin.statics.loads import Loads, share_loads
 from rover_pin.statics.problem import Problem, State
 from rover_pin.statics.relax import UPRIGHT
@@ -21,6 +21,7 @@ from rover_pin.statics.verdict import (
     link_in_ground,
     steadiness,
     undetermined_joints,
+    way_out,
     wheel_off_map,
 )
 
@@ -45,10 +46,7 @@ def report(problem: Problem, footing: Footing, terrain: Terrain, locked: tuple[s
         return _stance(problem, footing, terrain, locked, None, None)
     state = problem.state(footing.z, terrain, window=1e-5)
     loads = share_loads(problem, state)
-    start = footing.z
     footing, undetermined = _judge(problem, footing, terrain, state, loads)
-    if footing.status is Status.SETTLED and footing.z is not start:
-        return report(problem, footing, terrain, locked)
     if footing.status is not Status.SETTLED:
         return _stance(problem, footing, terrain, locked, None, None)
     stance = _stance(problem, footing, terrain, locked, state, loads, undetermined)
@@ -75,10 +73,9 @@ def _judge(
     if motions.shape[1]:
         stiffness = steadiness(problem, state, loads, terrain, motions)
         undetermined = undetermined_joints(problem, motions, stiffness)
-        values, vectors = np.linalg.eig(stiffness)
-        worst = int(np.argmin(values.real))
-        if values[worst].real < -1e-7:
-            return _topple(problem, z, terrain, motions @ vectors[:, worst].real), undetermined
+        out = way_out(problem, state, loads, terrain)
+        if out is not None:
+            return _topple(problem, z, terrain, out), undetermined
     hit = link_in_ground(problem, problem.locate(z), terrain)
     if hit is not None:
         return failed(z, Status.GROUNDED, hit[0], f"{hit[0]} is {hit[1]:.3g} m in the ground"), undetermined
@@ -86,14 +83,14 @@ def _judge(
 
 
 def _topple(problem: Problem, z: Array, terrain: Terrain, direction: Array) -> Footing:
-    """An equilibrium that does not stay leaves along `direction`: where it rests, or what gives way."""
-    push = 1e-3 * direction / max(float(np.max(np.abs(direction))), 1e-12) * problem.unit
+    """An equilibrium that does not stay leaves along `direction`: name what gives way."""
     names = [problem.rover.dof_names[column] for column in problem.reduction.columns]
-    moved = np.abs(direction)
+    moved = np.abs(direction) / problem.unit
     moved[:3] = 0.0
     joint = names[int(np.argmax(moved))] if np.max(moved, initial=0.0) > 1e-3 else None
+    push = PUSH * direction
     found = let_go(problem, z + push, terrain, 1e-3, joint)
-    if found.status in (Status.LOOSE, Status.SETTLED):
+    if found.status is Status.LOOSE:
         return found
     reason = f"joint {joint} gives way and nothing catches it" if joint else "it balances and would fall over"
     return failed(z, Status.TIPS, joint, reason)

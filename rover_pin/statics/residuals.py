@@ -1,8 +1,8 @@
 """Residuals of a stance, recomputed from the model by other means than the solver's.
 
 Shared with the solver: Pinocchio, and the terrain's surface. Not shared: the contact search (here the
-distance of a point to a circle, in closed form, and a dense look at the ring), the rows (frame Jacobians of the
-wheels' links and the centre of mass), the reduction (all couplings are checked on q itself).
+distance of a point to a circle, in closed form, and a dense look at the ring), the rows (frame Jacobians of
+the wheels' links and the centre of mass), the reduction (all couplings are checked on q itself).
 """
 
 from __future__ import annotations

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
@@ -18,7 +17,6 @@ from rover_pin.statics.held import free_coordinates, held_joints
 from rover_pin.statics.problem import Problem
 from rover_pin.statics.report import report
 from rover_pin.statics.stance import Stance, Status
-from rover_pin.statics.verdict import wheel_off_map
 from rover_pin.terrain import Terrain
 
 if TYPE_CHECKING:
@@ -84,8 +82,6 @@ def settle(
         stance = report(problem, found, terrain, locked)
         if stance.status is not Status.NO_CONVERGENCE:
             return stance
-    if wheel_off_map(problem, problem.locate(z), terrain) is not None:
-        return report(problem, replace(footing, z=z), terrain, locked)
     return report(problem, follow(problem, footing, z, terrain, level), terrain, locked)
 
 
@@ -165,7 +161,7 @@ def _posture(
         base = values | rover.resolve_posture(None) | given
         named = posture_for_clearance(
             rover,
-            float(posture["clearance"]),
+            _metres(posture["clearance"]),
             base,
             tuple(given),
             _engaged(rover, locks, base, locked),
@@ -175,6 +171,16 @@ def _posture(
         named = rover.resolve_posture(posture)
     values |= named | given
     return values, _engaged(rover, locks, values, locked)
+
+
+def _metres(goal: object) -> float:
+    """A clearance goal as a number."""
+    try:
+        return float(goal)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        raise PostureError(
+            "not a finite number", element="clearance", value=goal, cure="give metres"
+        ) from None
 
 
 def _engaged(

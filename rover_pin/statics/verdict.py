@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
 
 
+UNSTEADY = -1e-7
+"""Share of weight times span, per rad, below which a stiffness counts as negative."""
+
+
 def wheel_off_map(problem: Problem, at: Kinematics, terrain: Terrain) -> str | None:
     """A wheel with a point that is not over the map, or None."""
     if not np.any(np.isfinite(terrain.extent)):
@@ -62,13 +66,26 @@ def steadiness(problem: Problem, state: State, loads: Loads, terrain: Terrain, m
     scaled = matrix * problem.unit[None, :] * problem.unit[:, None] / (problem.weight * problem.span)
     carrying = loads.touching[loads.multipliers[loads.touching] > 0.0]
     sides = np.vstack([state.force[carrying], state.closing]) * problem.unit
-    across = np.eye(problem.n)
+    across: Array = motions
     if len(sides):
-        across = np.asarray(null_space(sides, rcond=1e-9), dtype=np.float64)
+        across = np.array(null_space(sides, rcond=1e-9), dtype=np.float64)
     if across.shape[1] != motions.shape[1]:
         across = motions
-    reduced: Array = np.linalg.lstsq(across.T @ motions, across.T @ scaled @ motions, rcond=None)[0]
-    return reduced
+    solved = np.linalg.lstsq(across.T @ motions, across.T @ scaled @ motions, rcond=None)[0]
+    return np.array(solved, dtype=np.float64)
+
+
+def way_out(problem: Problem, state: State, loads: Loads, terrain: Terrain) -> Array | None:
+    """(n,) the free motion along which a stance would leave by itself, or None where it stays."""
+    motions = free_motions(state, loads, problem)
+    if not motions.shape[1]:
+        return None
+    values, vectors = np.linalg.eig(steadiness(problem, state, loads, terrain, motions))
+    worst = int(np.argmin(values.real))
+    if values[worst].real >= UNSTEADY:
+        return None
+    along: Array = motions @ vectors[:, worst].real
+    return along / max(float(np.max(np.abs(along))), 1e-12) * problem.unit
 
 
 def undetermined_joints(problem: Problem, motions: Array, stiffness: Array) -> tuple[str, ...]:
