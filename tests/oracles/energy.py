@@ -65,18 +65,28 @@ def energy_minimum(machine: Machine, heights, place, fixed=None, held=(), gravit
             lambda q: known(q)[0][0], q, jac=lambda q: known(q)[1][0], method="SLSQP", bounds=bounds,
             constraints=constraints[: 2 if len(rows) else 1], options={"ftol": 1e-16, "maxiter": 1000},
         ).x  # fmt: skip
-        best = _first_order(*known(q), rows, rows @ q - right)
+        best = _first_order(*known(q), np.vstack([rows, -rows, _at_limits(q, bounds)]), rows @ q - right)
         if best < 1e-10:
-            return dict(zip(names, q.tolist(), strict=True))
+            break
+    if best < 5e-9:
+        return dict(zip(names, q.tolist(), strict=True))
     raise ValueError(f"not a minimum: {best:g}")
 
 
-def _first_order(values, table, rows, closed) -> float:
+def _first_order(values, table, others, closed) -> float:
     """Largest violation of the conditions of a minimum, multipliers by non-negative least squares."""
     active = values[1:] < 1e-9
-    sides = np.vstack([table[1:][active], rows, -rows]).T
+    sides = np.vstack([table[1:][active], others]).T
     _, unbalanced = nnls(sides, table[0])
     return float(max(unbalanced, -np.min(values[1:]), np.max(np.abs(closed), initial=0.0)))
+
+
+def _at_limits(q, bounds) -> np.ndarray:
+    """Inward rows of the joints that stand on a limit."""
+    unit = np.eye(len(q))
+    low = [unit[i] for i, (least, _) in enumerate(bounds) if q[i] - least < 1e-9]
+    high = [-unit[i] for i, (_, most) in enumerate(bounds) if most - q[i] < 1e-9]
+    return np.array([*low, *high]).reshape(-1, len(q))
 
 
 def level_gap(poses, disc) -> np.ndarray:

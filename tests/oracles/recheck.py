@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from complementarity import Oracle, Rest
 from ring_distance import Ground
-from tree_walk import BASE, machine
+from tree_walk import BASE, STEP, machine
 
 
 def residuals(stance, read=None) -> tuple[float, float]:
@@ -30,7 +30,7 @@ def residuals(stance, read=None) -> tuple[float, float]:
     loads = np.array([contact.load for contact in stance.contacts])
     weigh = oracle.unit / (oracle.weight * oracle.span)
     force = (dV[0] - loads @ motion[0, :, :, 2]) * weigh
-    ties = (np.vstack([oracle.rows, closing[0], *_stops(oracle, stance)]) * oracle.unit).T
+    ties = (np.vstack([oracle.rows, closing[0], *_stops(oracle, stance, q)]) * oracle.unit).T
     if ties.size:
         force = force - ties @ np.linalg.lstsq(ties, force, rcond=None)[0]
     worst = float(np.max(np.abs(oracle.rows @ q - oracle.right), initial=0.0))
@@ -40,9 +40,15 @@ def residuals(stance, read=None) -> tuple[float, float]:
     return float(np.max(np.abs(force))), worst
 
 
-def _stops(oracle, stance):
-    """Rows of the joints that stand on a stop."""
-    return [np.array([[1.0 if name == joint else 0.0 for name in oracle.names]]) for joint in stance.stops]
+def _stops(oracle, stance, q):
+    """Rows of the joints and of the springs between frames that stand on a stop."""
+    for stop in stance.stops:
+        if stop in oracle.names:
+            yield np.array([[1.0 if name == stop else 0.0 for name in oracle.names]])
+        for spring in oracle.machine.springs:
+            if spring["name"] == stop:
+                poses = oracle.walk(q.astype(complex) + 1j * STEP * np.eye(oracle.n))
+                yield oracle.machine.length(poses, spring).imag[None] / STEP
 
 
 def retry(rover, terrain, cases, steps=(4, 16, 64)) -> list[Rest]:

@@ -81,6 +81,18 @@ def touch(ground: Ground, center, axis, ring, tread, x, y) -> Touch:
     return Touch(size - tread, w, nearest, up / max(size, 1e-300))
 
 
+def at_crease(ground: Ground, center, axis, ring, tread, start, pitch) -> Touch:
+    """The least distance near `start` where the ground has a kink: grids, each a fifth as wide."""
+    place, wide = start, 1.5 * pitch
+    for _ in range(12):
+        x, y = (place[k] + np.linspace(-wide, wide, 25) for k in (0, 1))
+        gx, gy = (g.ravel() for g in np.meshgrid(x, y))
+        points = np.stack([gx, gy, ground.height(gx, gy)], axis=1)
+        best = int(np.argmin(np.linalg.norm(points - to_circle(points, center, axis, ring), axis=1)))
+        place, wide = np.array([gx[best], gy[best]]), wide / 5
+    return touch(ground, center, axis, ring, tread, *place)
+
+
 def look(ground: Ground, center, axis, ring, tread, pitch=0.004, keep=0.01) -> list[Touch]:
     """Low places of the footprint whose gap is within `keep` of the least, least first."""
     reach = ring * np.sqrt(np.maximum(1.0 - axis[:2] ** 2, 0.0)) + tread + pitch
@@ -99,7 +111,8 @@ def look(ground: Ground, center, axis, ring, tread, pitch=0.004, keep=0.01) -> l
     found: list[Touch] = []
     for i, j in np.argwhere(low):
         got = refine(ground, center, axis, ring, tread, np.array([gx[i, j], gy[i, j]]))
-        got = got or touch(ground, center, axis, ring, tread, gx[i, j], gy[i, j])
+        if got is None or got.gap > distance[i, j] - tread:
+            got = at_crease(ground, center, axis, ring, tread, np.array([gx[i, j], gy[i, j]]), pitch)
         if all(np.linalg.norm(got.ground - other.ground) > 1e-4 for other in found):
             found.append(got)
     found.sort(key=lambda t: t.gap)
