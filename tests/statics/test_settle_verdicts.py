@@ -280,6 +280,17 @@ def test_two_high_wheels_are_joined_by_a_third(tmp_path, height):
         assert stance.loads[caught] > 0
 
 
+def test_a_symmetric_box_stands_on_three_of_its_wheels(tmp_path):
+    """Its centre of mass is over both diagonals: on two wheels it balances, and a third is millimetres away."""
+    rover, ground = four_wheels().load(tmp_path), rp.Terrain.rough(1, 0.05, 0.8)
+    generator = np.random.default_rng(5)
+    for _ in range(40):
+        x, y, yaw = *generator.uniform(-8, 8, 2), generator.uniform(-3, 3)
+        stance = rp.settle(rover, ground, x=x, y=y, yaw=yaw)
+        assert stance.settled, (x, y, yaw, stance)
+        assert sum(load > 0 for load in stance.loads.values()) == 3
+
+
 def test_two_wheels_alone_fall_over(tmp_path):
     made = Builder("bicycle").link("base_link", 10, (0, 0, 0.2))
     for name, x in (("f", 0.4), ("b", -0.4)):
