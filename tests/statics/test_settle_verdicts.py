@@ -281,7 +281,7 @@ def test_two_high_wheels_are_joined_by_a_third(tmp_path, height):
 
 
 def test_a_symmetric_box_stands_on_three_of_its_wheels(tmp_path):
-    """Its centre of mass is over both diagonals: on two wheels it balances, and a third is millimetres away."""
+    """Its mass is over both diagonals: on two wheels it balances, and a third is millimetres away."""
     rover, ground = four_wheels().load(tmp_path), rp.Terrain.rough(1, 0.05, 0.8)
     generator = np.random.default_rng(5)
     for _ in range(40):
