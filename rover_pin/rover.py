@@ -117,7 +117,7 @@ class Rover:
 
     @property
     def hull(self) -> tuple[BodyPoint, ...]:
-        """Points of collision primitives of links that are no wheel, at most 0.1 m apart."""
+        """Points of collision primitives of links that are no wheel, at most 0.05 m apart."""
         return self.read_geometry().hull
 
     @property

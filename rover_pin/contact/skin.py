@@ -24,8 +24,8 @@ def lattice(
     """How finely to look: rows along the line, columns around the ball.
 
     Neighbours are at most half of the terrain's `spacing` apart, a quarter where thorough (within the bounds
-    on rows and columns), rows at most an eighth of the shape. A ring whose axis is level needs its lower half only: of two points one
-    above the other the lower is the nearer to a height field.
+    on rows and columns), rows at most an eighth of the shape. A ring whose axis is level needs its lower half
+    only: of two points one above the other the lower is the nearer to a height field.
 
     Args:
         kind: terrain kind.

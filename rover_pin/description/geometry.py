@@ -15,7 +15,7 @@ from rover_pin.description.notes import Notes
 from rover_pin.description.tree import Tree
 from rover_pin.numerics import Array, frozen
 
-SPACING = 0.1  # m between neighbouring points of the hull, at most
+SPACING = 0.05  # m between neighbouring points of the hull, at most
 
 Kind = Literal["box", "cylinder", "sphere", "mesh"]
 

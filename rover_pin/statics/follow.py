@@ -9,6 +9,7 @@ import numpy as np
 
 from rover_pin.numerics import Array
 from rover_pin.statics.ground import (
+    JUMP,
     NOT_NEGATIVE,
     Footing,
     failed,
@@ -28,9 +29,6 @@ if TYPE_CHECKING:
 
 OPEN = -2e-7
 """m or rad: a gap below this is a penetration, to be resolved by another set of supports."""
-
-JUMP = 0.2
-"""Share of the wheels' span, and rad: a motion larger than this over a least step leaves the branch."""
 
 FALL = 0.05
 """Share of the span, and rad: a rover that lost a support and moved this far without a rest falls."""

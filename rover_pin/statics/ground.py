@@ -30,6 +30,9 @@ RESTS = (1e-4, 3e-5, 1e-5, 1e-7)
 PUSH = 1e-3
 """Share of the span, or rad: the nudge that tells a stance that stays from one that only balances."""
 
+JUMP = 0.2
+"""Share of the wheels' span, and rad: a motion larger than this over a least step leaves the branch."""
+
 FALLING = 1.0
 """Rad of tilt beyond which a rover that lost a support, and that no support can hold any more, falls over."""
 
@@ -77,11 +80,6 @@ def settle_on_level(problem: Problem, posture: Mapping[str, float], ground: Terr
     lost = heaviest_loser(problem, held_up, problem.state(z, ground, 1e-5))
     footing = let_go(problem, z, ground, 1e-5, lost, OUT_OF_HAND)
     if footing.status is Status.SETTLED:
-        state = problem.state(footing.z, ground, window=1e-5)
-        out = way_out(problem, state, share_loads(problem, state), ground)
-        if out is not None:
-            footing = let_go(problem, footing.z + PUSH * out, ground, 1e-5, lost, OUT_OF_HAND)
-    if footing.status is Status.SETTLED:
         loose = _fell_to_its_stop(problem, z, footing)
         if loose is not None:
             reason = f"passive joint {loose} falls to its stop before any wheel beyond it bears"
@@ -92,7 +90,7 @@ def settle_on_level(problem: Problem, posture: Mapping[str, float], ground: Terr
 def let_go(
     problem: Problem, z: Array, terrain: Terrain, window: float, lost: str | None, far: float = FAR
 ) -> Footing:
-    """Let the rover fall from z; a rest that Newton cannot finish is followed further down.
+    """Let the rover fall from z; from a rest on which it only balances it is pushed off.
 
     Args:
         problem: the rover.
@@ -102,6 +100,20 @@ def let_go(
         lost: the support that gave way, or None.
         far: shares of the span, or rad; a joint that moves further is lost.
     """
+    footing = _come_to_rest(problem, z, terrain, window, lost, far)
+    if footing.status is not Status.SETTLED:
+        return footing
+    state = problem.state(footing.z, terrain, window=1e-5)
+    out = way_out(problem, state, share_loads(problem, state), terrain)
+    if out is None:
+        return footing
+    return _come_to_rest(problem, footing.z + PUSH * out, terrain, window, lost, far)
+
+
+def _come_to_rest(
+    problem: Problem, z: Array, terrain: Terrain, window: float, lost: str | None, far: float
+) -> Footing:
+    """Relax until Newton can finish."""
     for resting in RESTS:
         rest = relax(problem, z, terrain, window=window, resting=resting, far=far)
         footing = footing_of(problem, rest, terrain, lost)
@@ -157,7 +169,8 @@ def carrying(problem: Problem, rest: Rest) -> Integers:
 def supports(problem: Problem, state: State, near: Integers, plain: Integers) -> Integers:
     """As many of the rows `near` as are needed to carry the load, none with a negative one.
 
-    A basic solution of non-negative least squares, whose support is independent where supports are redundant.
+    A basic solution of non-negative least squares, whose support is independent where supports are redundant;
+    then those that touch without load (a load right over a diagonal), as far as they hold the rover steady.
 
     Args:
         problem: the rover.
@@ -169,7 +182,17 @@ def supports(problem: Problem, state: State, near: Integers, plain: Integers) ->
     sides = state.force[near].T * weigh[:, None]
     pulls = state.closing.T * weigh[:, None]
     found = nnls(np.hstack([sides, pulls, -pulls]), state.load / problem.weight * weigh)[0][: len(near)]
-    return np.array(sorted({int(plain[row]) for row in near[found > -NOT_NEGATIVE]}), dtype=np.int64)
+    chosen = list(near[found > -NOT_NEGATIVE])
+    rows = np.vstack([state.closing, state.motion[chosen]]) * problem.unit
+    rank = int(np.linalg.matrix_rank(rows, tol=1e-9)) if rows.size else 0
+    for row in near[found <= -NOT_NEGATIVE]:
+        if rank == problem.n:
+            break
+        wider = np.vstack([rows, state.motion[row] * problem.unit])
+        if int(np.linalg.matrix_rank(wider, tol=1e-9)) > rank:
+            rows, rank = wider, rank + 1
+            chosen.append(row)
+    return np.array(sorted({int(plain[row]) for row in chosen}), dtype=np.int64)
 
 
 def heaviest_loser(problem: Problem, loads: Loads, state: State) -> str | None:

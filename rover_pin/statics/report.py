@@ -11,7 +11,7 @@ import pinocchio as pin
 from rover_pin.mechanism import Kinematics
 from rover_pin.numerics import Array, cross, frozen
 from rover_pin.statics import residuals
-from rover_pin.statics.ground import PUSH, Footing, failed, let_go
+from rover_pin.statics.ground import JUMP, PUSH, Footing, failed, let_go
 from rover_pin.statics.loads import Loads, share_loads
 from rover_pin.statics.problem import Problem, State
 from rover_pin.statics.relax import UPRIGHT
@@ -35,7 +35,9 @@ BALANCED = 1e-7
 """Share of the weight that may stay unbalanced before a pose is no stance."""
 
 
-def report(problem: Problem, footing: Footing, terrain: Terrain, locked: tuple[str, ...]) -> Stance:
+def report(
+    problem: Problem, footing: Footing, terrain: Terrain, locked: tuple[str, ...], *, pushed: bool = False
+) -> Stance:
     """The stance of a footing; a pose that fails a check is a status, never a stance."""
     if footing.status is Status.SETTLED and problem.tilt(footing.z) > UPRIGHT:
         footing = failed(footing.z, Status.TIPS, None, "it stands on its side: tilt above 80 deg")
@@ -46,7 +48,10 @@ def report(problem: Problem, footing: Footing, terrain: Terrain, locked: tuple[s
         return _stance(problem, footing, terrain, locked, None, None)
     state = problem.state(footing.z, terrain, window=1e-5)
     loads = share_loads(problem, state)
+    start = footing.z
     footing, undetermined = _judge(problem, footing, terrain, state, loads)
+    if footing.status is Status.SETTLED and footing.z is not start and not pushed:
+        return report(problem, footing, terrain, locked, pushed=True)
     if footing.status is not Status.SETTLED:
         return _stance(problem, footing, terrain, locked, None, None)
     stance = _stance(problem, footing, terrain, locked, state, loads, undetermined)
@@ -83,14 +88,15 @@ def _judge(
 
 
 def _topple(problem: Problem, z: Array, terrain: Terrain, direction: Array) -> Footing:
-    """An equilibrium that does not stay leaves along `direction`: name what gives way."""
+    """An equilibrium that does not stay leaves along `direction`: what catches it, or what gives."""
     names = [problem.rover.dof_names[column] for column in problem.reduction.columns]
     moved = np.abs(direction) / problem.unit
     moved[:3] = 0.0
     joint = names[int(np.argmax(moved))] if np.max(moved, initial=0.0) > 1e-3 else None
     push = PUSH * direction
     found = let_go(problem, z + push, terrain, 1e-3, joint)
-    if found.status is Status.LOOSE:
+    near = bool(np.max(np.abs(found.z - z) / problem.unit) < JUMP)
+    if found.status is Status.LOOSE or (found.status is Status.SETTLED and near):
         return found
     reason = f"joint {joint} gives way and nothing catches it" if joint else "it balances and would fall over"
     return failed(z, Status.TIPS, joint, reason)
@@ -243,5 +249,5 @@ def _residuals(
         ),
         "gap_m": residuals.gap(rover, at, terrain, contacts),
         "loop_m": residuals.closure(rover, at),
-        "complementarity": residuals.complementarity(contacts, gaps, weight),
+        "complementarity": residuals.complementarity(contacts, gaps, state.slack, loads.multipliers, weight),
     }

@@ -92,12 +92,23 @@ def closure(rover: Rover, at: Kinematics) -> float:
     return float(np.max(np.concatenate(parts))) if parts else 0.0
 
 
-def complementarity(contacts: Sequence[Contact], gaps: Mapping[str, float], weight: float) -> float:
-    """Largest load times gap, over the weight [m], and negative loads over the weight."""
+def complementarity(
+    contacts: Sequence[Contact], gaps: Mapping[str, float], slack: Array, multipliers: Array, weight: float
+) -> float:
+    """Largest multiplier times slack over the weight [m or rad], negative load over it, or open penetration.
+
+    Args:
+        contacts: with their loads.
+        gaps: per wheel, m.
+        slack: (m,) of all one-sided rows: contacts, stops, springs' stops, tracks.
+        multipliers: (m,) their loads, forces and torques.
+        weight: N.
+    """
     products = [abs(contact.load * contact.gap) / weight for contact in contacts]
     negative = [max(-contact.load, 0.0) / weight for contact in contacts]
     open_gaps = [max(-gap, 0.0) for gap in gaps.values()]
-    return float(max([0.0, *products, *negative, *open_gaps]))
+    rows = np.max(np.abs(slack * multipliers) / weight, initial=0.0)
+    return float(max([0.0, float(rows), *products, *negative, *open_gaps]))
 
 
 def _turns(model: Any, free: Array) -> NDArray[np.bool_]:

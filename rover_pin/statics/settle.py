@@ -80,7 +80,7 @@ def settle(
     found = straight(problem, footing, z, terrain)
     if found is not None:
         stance = report(problem, found, terrain, locked)
-        if stance.status is not Status.NO_CONVERGENCE:
+        if stance.status not in (Status.NO_CONVERGENCE, Status.TIPS):
             return stance
     return report(problem, follow(problem, footing, z, terrain, level), terrain, locked)
 
@@ -102,6 +102,13 @@ def on_level(
 
 
 def _check(rover: Rover, terrain: Terrain, x: float, y: float, yaw: float, gravity: float) -> None:
+    if not isinstance(terrain, Terrain):
+        raise InputError(
+            "not a Terrain",
+            element="terrain",
+            value=terrain,
+            cure="make one with Terrain.flat(), Terrain.from_file(...), or Terrain.parse('slope:10')",
+        )
     for name, value in (("x", x), ("y", y), ("yaw", yaw), ("gravity", gravity)):
         if not math.isfinite(value):
             raise InputError("must be a finite number", element=name, value=value)

@@ -122,16 +122,21 @@ def test_an_open_coupling_and_an_open_loop_are_seen(stance):
     assert closure(built.rover, moved(built, "bar", 1e-3)) > 1e-4
 
 
+NONE = np.zeros(0)
+
+
 def test_complementarity_is_seen(stance):
     contact = stance.contacts[0]
     weight = stance.weight
     hovering = dataclasses.replace(contact, gap=1e-3)
-    found = residuals.complementarity([hovering], stance.gaps, weight)
+    found = residuals.complementarity([hovering], stance.gaps, NONE, NONE, weight)
     assert found == pytest.approx(contact.load * 1e-3 / weight, rel=1e-9)
     pulling = dataclasses.replace(contact, load=-0.02 * weight, gap=0.0)
-    assert residuals.complementarity([pulling], stance.gaps, weight) == pytest.approx(0.02)
-    assert residuals.complementarity([], {"fl": -1e-3}, weight) == pytest.approx(1e-3)
-    assert residuals.complementarity(stance.contacts, stance.gaps, weight) < 1e-9
+    assert residuals.complementarity([pulling], stance.gaps, NONE, NONE, weight) == pytest.approx(0.02)
+    assert residuals.complementarity([], {"fl": -1e-3}, NONE, NONE, weight) == pytest.approx(1e-3)
+    stopped = np.array([2.0 * weight]), np.array([1e-3])
+    assert residuals.complementarity([], {}, *stopped, weight) == pytest.approx(2e-3)
+    assert residuals.complementarity(stance.contacts, stance.gaps, NONE, NONE, weight) < 1e-9
 
 
 def test_gravity_of_another_world_unbalances(stance):
