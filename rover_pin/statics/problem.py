@@ -143,6 +143,7 @@ class Problem:
 
     def moved(self, x: float, y: float, yaw: float) -> Problem:
         """The same problem with the base held elsewhere; shares everything that does not depend on it."""
+        _ = self.unit, self.underside  # what is worked out once is shared
         twin = object.__new__(Problem)
         twin.__dict__.update(self.__dict__)
         offset = self.reduction.offset.copy()

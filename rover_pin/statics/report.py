@@ -74,7 +74,8 @@ def _judge(
     if loads.unbalanced > BALANCED or lightest < -1e-8 * problem.weight:
         return failed(z, Status.NO_CONVERGENCE, None, "the pose found is not in equilibrium"), ()
     undetermined: tuple[str, ...] = ()
-    motions = free_motions(state, loads, problem)
+    determined = footing.sign != 0.0 and len(footing.active) + len(footing.loops) == problem.n
+    motions = np.zeros((problem.n, 0)) if determined else free_motions(state, loads, problem)
     if motions.shape[1]:
         stiffness = steadiness(problem, state, loads, terrain, motions)
         undetermined = undetermined_joints(problem, motions, stiffness)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from rover_pin.contact.place import SEGMENT
 from rover_pin.mechanism import Bilateral, Kinematics
-from rover_pin.numerics import Array, cross
+from rover_pin.numerics import Array
 from rover_pin.statics.stance import Contact
 
 if TYPE_CHECKING:
@@ -24,7 +24,9 @@ if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
 
 _TURNS = np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False)
+_SHARES = np.linspace(-1.0, 1.0, len(_TURNS))
 _AXES = np.eye(3)
+_NEXT, _AFTER = np.array([1, 2, 0]), np.array([2, 0, 1])
 _COSINES, _SINES = np.cos(_TURNS), np.sin(_TURNS)
 
 
@@ -122,12 +124,10 @@ def _turns(model: Any, free: Array) -> NDArray[np.bool_]:
 
 def _deepest(rover: Rover, centers: Array, axes: Array, terrain: Terrain) -> float:
     """How deep the skin lies in the ground at worst [m], at most 0 where nowhere."""
-    balls = np.concatenate(
-        [
-            center + (_line(axis, shape.ring) if shape.form == SEGMENT else _circle(axis, shape.ring))
-            for shape, center, axis in zip(rover.shapes, centers, axes, strict=True)
-        ]
-    )
+    forms = np.array([shape.form for shape in rover.shapes])[:, None, None]
+    sizes = np.array([shape.ring for shape in rover.shapes])[:, None, None]
+    along = np.where(forms == SEGMENT, _SHARES[:, None] * axes[:, None, :], _circles(axes))
+    balls = (centers[:, None, :] + sizes * along).reshape(-1, 3)
     treads = np.repeat([shape.tread for shape in rover.shapes], len(_TURNS))
     slope = terrain.gradient(balls[:, 0], balls[:, 1])
     steep = np.sqrt(1.0 + np.sum(slope**2, axis=1))
@@ -150,16 +150,11 @@ def _to_segment(away: Array, axis: Array, half: float) -> float:
     return float(np.linalg.norm(away - along * axis))
 
 
-def _line(axis: Array, half: float) -> Array:
-    """(48, 3) points of a segment about the origin."""
-    return np.linspace(-half, half, len(_TURNS))[:, None] * axis
-
-
-def _circle(axis: Array, ring: float) -> Array:
-    """(48, 3) points of a circle about the origin."""
-    helper = _AXES[int(np.argmin(np.abs(axis)))]
-    first = cross(axis, helper)
-    first /= np.sqrt(first @ first)
-    second = cross(axis, first)
-    points: Array = ring * (_COSINES[:, None] * first + _SINES[:, None] * second)
+def _circles(axes: Array) -> Array:
+    """(s, 48, 3) points of unit circles about the origin, across axes (s, 3)."""
+    helpers = _AXES[np.argmin(np.abs(axes), axis=1)]
+    first = axes[:, _NEXT] * helpers[:, _AFTER] - axes[:, _AFTER] * helpers[:, _NEXT]
+    first /= np.sqrt(np.sum(first * first, axis=1, keepdims=True))
+    second = axes[:, _NEXT] * first[:, _AFTER] - axes[:, _AFTER] * first[:, _NEXT]
+    points: Array = _COSINES[:, None] * first[:, None, :] + _SINES[:, None] * second[:, None, :]
     return points

@@ -13,7 +13,7 @@ from rover_pin.errors import InputError, OffMapError, PostureError
 from rover_pin.mechanism.lock import engage
 from rover_pin.statics.follow import follow, straight
 from rover_pin.statics.ground import Footing, failed, settle_on_level
-from rover_pin.statics.held import free_coordinates, held_joints
+from rover_pin.statics.held import BASE, free_coordinates, held_joints
 from rover_pin.statics.problem import Problem
 from rover_pin.statics.report import report
 from rover_pin.statics.stance import Stance, Status
@@ -152,7 +152,7 @@ def _posture(
     gravity: float,
 ) -> tuple[dict[str, float], tuple[str, ...]]:
     """Every joint's value, and the passive joints that are locked."""
-    values = {j: float(np.clip(0.0, rover.lower[c], rover.upper[c])) for j, c in _columns(rover).items()}
+    values = _at_zero(rover)
     given = rover.resolve_posture(joints)
     locked = {name for name in given if name not in rover.actuated and name not in _drives(rover)}
     if isinstance(posture, Mapping) and "clearance" in posture:
@@ -197,8 +197,10 @@ def _engaged(
     return tuple(sorted(engaged | locked))
 
 
-def _columns(rover: Rover) -> dict[str, int]:
-    return {joint: rover.column[joint] for joint in rover.joints}
+def _at_zero(rover: Rover) -> dict[str, float]:
+    """Every joint at 0, or at the limit nearest to it."""
+    nearest = np.clip(0.0, rover.lower, rover.upper)
+    return dict(zip(rover.joints, nearest[BASE:].tolist(), strict=True))
 
 
 def _drives(rover: Rover) -> set[str]:
