@@ -101,6 +101,12 @@ class Rover:
         return MappingProxyType({name: i for i, name in enumerate(self.dof_names)})
 
     @cached_property
+    def turning(self) -> tuple[bool, ...]:
+        """(nv) whether an entry of q is an angle [rad], else a length [m]."""
+        kinds = [self.model.joints[i].shortname() for i in range(2, self.model.njoints)]
+        return (*(False,) * 3, *(True,) * 3, *(not kind.startswith("JointModelP") for kind in kinds))
+
+    @cached_property
     def passive(self) -> tuple[str, ...]:
         """Moving joints that nothing drives."""
         return tuple(name for name in self.joints if name not in self.actuated)

@@ -28,6 +28,7 @@ class Kinematics:
         self.q = q
         pin.computeJointJacobians(model, data, q)
         self._jacobians: dict[int, Array] = {}
+        self._frames: dict[tuple[int, ...], tuple[Array, Array]] = {}
 
     def rotation(self, joint: int) -> Array:
         """(3, 3) rotation of the joint's frame in the world."""
@@ -38,6 +39,18 @@ class Kinematics:
         """(3,) m, the joint frame's origin in the world."""
         origin: Array = self.data.oMi[joint].translation
         return origin
+
+    def frames(self, joints: tuple[int, ...]) -> tuple[Array, Array]:
+        """Rotations (k, 3, 3) and origins (k, 3) m of several joints, world."""
+        found = self._frames.get(joints)
+        if found is None:
+            found = np.empty((len(joints), 3, 3)), np.empty((len(joints), 3))
+            for i, joint in enumerate(joints):
+                placement = self.data.oMi[joint]
+                found[0][i] = placement.rotation
+                found[1][i] = placement.translation
+            self._frames[joints] = found
+        return found
 
     def point(self, joint: int, local: Array) -> Array:
         """(3,) m, world place of a point given in the joint's frame."""

@@ -69,6 +69,11 @@ def failed(z: Array, status: Status, limiting: str | None, reason: str) -> Footi
     return Footing(z, status, limiting, reason, nothing, nothing, 0.0)
 
 
+def off_map(z: Array, wheel: str) -> Footing:
+    """A wheel has points that are not over the map."""
+    return failed(z, Status.OFF_MAP, wheel, f"{wheel} reaches beyond the map")
+
+
 def settle_on_level(problem: Problem, posture: Mapping[str, float], ground: Terrain) -> Footing:
     """Lower the level rover onto level ground and let go.
 

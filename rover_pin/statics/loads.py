@@ -15,6 +15,9 @@ from rover_pin.statics.problem import Integers, Problem, State
 TOUCHING = 1e-6
 """m: a place this near is a contact."""
 
+NEGATIVE = -1e-12
+"""Share of the weight: a multiplier below this asks for another share-out."""
+
 STOPPED = 1e-8
 """m or rad: a stop this near carries."""
 
@@ -55,9 +58,13 @@ def share_loads(problem: Problem, state: State) -> Loads:
     weigh = problem.unit / (problem.weight * problem.span)
     sides = np.vstack([state.force[touching], state.closing[loops]]).T * weigh[:, None] * problem.weight
     load = state.load * weigh
-    rank = int(np.linalg.matrix_rank(sides, tol=1e-9)) if sides.size else 0
-    redundant = sides.shape[1] - rank
-    found = _solve(sides, load, counted, one_sided, redundant)
+    least, _, rank, _ = np.linalg.lstsq(sides, load, rcond=1e-9)
+    redundant = sides.shape[1] - int(rank)
+    found = np.asarray(least, dtype=np.float64)
+    if redundant or np.min(found[one_sided], initial=0.0) < NEGATIVE:
+        found = _solve(sides, load, counted, one_sided, redundant)
+    small = one_sided & (found < 0.0) & (found > -1e-9)
+    found[small] = 0.0
     multipliers = np.zeros(len(state.slack))
     multipliers[touching] = found[: len(touching)] * problem.weight
     pulls = np.zeros(len(state.closure))
@@ -72,11 +79,9 @@ def _solve(
     """Least squares of the counted unknowns subject to balance, one-sided ones not negative."""
     used = np.ones(sides.shape[1], dtype=bool)
     found = _balanced(sides, load, counted, used, redundant)
-    if np.min(found[one_sided], initial=0.0) < -1e-12:
+    if np.min(found[one_sided], initial=0.0) < NEGATIVE:
         used = ~one_sided | (_proposal(sides, load, counted, one_sided) > 1e-12)
         found = _balanced(sides, load, counted, used, redundant)
-    small = one_sided & (found < 0.0) & (found > -1e-9)
-    found[small] = 0.0
     return found
 
 

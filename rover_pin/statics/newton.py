@@ -79,94 +79,76 @@ def land(
         reach: largest sum of steps, as a share of the wheels' span and in rad.
         iterations: most steps.
     """
-    n = problem.n
     held = len(active) + len(loops)
-    if held > n:
+    if held > problem.n:
         return None
-    determinate = held == n
-    start = z
-    multipliers: Array = np.zeros(len(active))
-    pulls: Array = np.zeros(len(loops))
+    determinate = held == problem.n
+    start, size = z, -1
+    pushed: Array
+    forces: Array = np.zeros(held)
     if not determinate:
-        multipliers, pulls = _first_guess(problem.state(z, terrain, window), active, loops, problem)
-    size = -1
+        forces = _first_guess(problem.state(z, terrain, window), active, loops, problem)
     for _ in range(iterations):
         state = problem.state(z, terrain, window)
         if size >= 0 and len(state.slack) != size:
             return None
         size = len(state.slack)
-        gaps = np.concatenate([state.slack[active], state.closure[loops]])
         rows = np.vstack([state.motion[active], state.closing[loops]])
+        gaps = np.concatenate([state.slack[active], state.closure[loops]])
         sides = np.vstack([state.force[active], state.closing[loops]])
         try:
             if determinate:
-                step, pushed = np.linalg.solve(rows, -gaps), np.zeros(n)
-                forces = np.linalg.solve(sides.T, state.load)
+                step, pushed = np.linalg.solve(rows, -gaps), np.zeros(held)
             else:
-                full = np.zeros(size)
-                full[active] = multipliers
-                pulling = np.zeros(len(state.closure))
-                pulling[loops] = pulls
+                full, pulling = _spread(state, active, loops, forces)
                 stiffness = problem.stiffness(z, terrain, full, pulling, window)
-                matrix = np.block([[stiffness, -sides.T], [rows, np.zeros((held, held))]])
-                now = np.concatenate([multipliers, pulls])
-                solution = _solve(matrix, np.concatenate([sides.T @ now - state.load, -gaps]), problem)
-                step, forces = solution[:n], now + solution[n:]
-                pushed = stiffness @ step
+                step, forces = _elastic_step(problem, state, stiffness, rows, sides, gaps, forces)
+                pushed = np.asarray(stiffness @ step, dtype=np.float64)
+            largest = float(np.max(np.abs(step) / problem.unit))
+            if determinate and largest < STEP:
+                forces = np.asarray(np.linalg.solve(sides.T, state.load), dtype=np.float64)
         except np.linalg.LinAlgError:
             return None
-        if not (np.all(np.isfinite(step)) and np.all(np.isfinite(forces))):
+        moved = float(np.max(np.abs(z + step - start) / problem.unit))
+        if not (moved <= reach and np.all(np.isfinite(forces))):
             return None
-        multipliers = np.asarray(forces[: len(active)], dtype=np.float64)
-        pulls = np.asarray(forces[len(active) :], dtype=np.float64)
-        moved = np.max(np.abs(z + step - start) / problem.unit)
-        if moved > reach:
-            return None
-        largest = np.max(np.abs(step) / problem.unit)
         if largest < STEP:
             rest = np.max(np.abs(state.load + pushed - sides.T @ forces) * problem.unit)
             if rest > BALANCE * problem.weight * problem.span:
                 return None
-            return _landing(z + step, state, active, multipliers, loops, pulls, rows, determinate)
+            full, pulling = _spread(state, active, loops, forces)
+            sign = float(np.linalg.slogdet(rows)[0]) if determinate else 0.0
+            return Landing(z + step, state, active, full, pulling, sign)
         z = z + step
     return None
 
 
-def _first_guess(state: State, active: Integers, loops: Integers, problem: Problem) -> tuple[Array, Array]:
+def _spread(state: State, active: Integers, loops: Integers, forces: Array) -> tuple[Array, Array]:
+    """Multipliers of all one-sided rows and of all loop rows, zero where not held."""
+    full, pulling = np.zeros(len(state.slack)), np.zeros(len(state.closure))
+    full[active] = forces[: len(active)]
+    pulling[loops] = forces[len(active) :]
+    return full, pulling
+
+
+def _first_guess(state: State, active: Integers, loops: Integers, problem: Problem) -> Array:
     """Multipliers that come nearest to balance at the start."""
     sides = np.vstack([state.force[active], state.closing[loops]]).T * problem.unit[:, None]
-    solved = np.linalg.lstsq(sides, state.load * problem.unit, rcond=1e-9)[0]
-    found = np.asarray(solved, dtype=np.float64)
-    return found[: len(active)], found[len(active) :]
+    return np.asarray(np.linalg.lstsq(sides, state.load * problem.unit, rcond=1e-9)[0], dtype=np.float64)
 
 
-def _landing(
-    z: Array,
-    state: State,
-    active: Integers,
-    multipliers: Array,
-    loops: Integers,
-    pulls: Array,
-    rows: Array,
-    determinate: bool,
-) -> Landing:
-    """The result; the sign is that of the rows' determinant where they are square."""
-    full = np.zeros(len(state.slack))
-    full[active] = multipliers
-    pulling = np.zeros(len(state.closure))
-    pulling[loops] = pulls
-    sign = float(np.linalg.slogdet(rows)[0]) if determinate else 0.0
-    return Landing(z, state, active, full, pulling, sign)
+def _elastic_step(
+    problem: Problem, state: State, stiffness: Array, rows: Array, sides: Array, gaps: Array, forces: Array
+) -> tuple[Array, Array]:
+    """Step and new multipliers where stiffness matters too.
 
-
-def _solve(matrix: Array, right: Array, problem: Problem) -> Array:
-    """Scaled least-squares solve: directions that nothing determines do not move."""
-    n = problem.n
-    scale = np.concatenate([problem.unit, np.full(len(right) - n, problem.weight)])
-    weigh = np.concatenate(
-        [problem.unit / (problem.weight * problem.span), np.ones(len(right) - n) / problem.span]
-    )
+    A scaled least-squares solve: directions that nothing determines do not move.
+    """
+    n, held = problem.n, len(gaps)
+    matrix = np.block([[stiffness, -sides.T], [rows, np.zeros((held, held))]])
+    right = np.concatenate([sides.T @ forces - state.load, -gaps])
+    scale = np.concatenate([problem.unit, np.full(held, problem.weight)])
+    weigh = np.concatenate([problem.unit / (problem.weight * problem.span), np.ones(held) / problem.span])
     scaled = matrix * scale[None, :] * weigh[:, None]
-    solution = np.linalg.lstsq(scaled, right * weigh, rcond=1e-8)[0]
-    answer: Array = solution * scale
-    return answer
+    solution = np.linalg.lstsq(scaled, right * weigh, rcond=1e-8)[0] * scale
+    return solution[:n], forces + solution[n:]

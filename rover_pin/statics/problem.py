@@ -97,17 +97,14 @@ class Problem:
         self.shapes = pack(rover.shapes)
         self.carriers, index = np.unique(self.shapes.joints, return_inverse=True)
         self._carrier_of: Integers = index.astype(np.int64).reshape(-1)
-        self._carrier_list = [int(joint) for joint in self.carriers]
+        self._carrier_list = tuple(int(joint) for joint in self.carriers)
         self._found = np.empty((len(rover.shapes), CONTACTS_PER_SHAPE, 7))
         self._counts = np.zeros(len(rover.shapes), dtype=np.int64)
         self.elastics: list[Elastic] = list(rover.springs)
         self.one_sided: list[OneSided] = [e for e in (*rover.springs, *rover.tracks) if hasattr(e, "slack")]
         self._index_stops()
-        joint_types = [self.model.joints[i].shortname() for i in range(1, self.model.njoints)]
-        sliding = np.array(
-            [False, False, True, False, False, False] + [t.startswith("JointModelP") for t in joint_types[1:]]
-        )
-        self.lengths: NDArray[np.bool_] = sliding[list(reduction.columns)]
+        self.lengths: NDArray[np.bool_] = ~np.array(rover.turning)[list(reduction.columns)]
+        self.checking: Any = rover.model.createData()  # for residuals: nothing of the solver's own
 
     def _index_stops(self) -> None:
         """Limits of joints that move: rows s (limit - q) >= 0."""
@@ -157,9 +154,9 @@ class Problem:
 
     def place_shapes(self, at: Kinematics) -> tuple[Array, Array]:
         """Centres (s, 3) m and axes (s, 3) of all shapes, world."""
-        rotations = np.array([at.rotation(joint) for joint in self._carrier_list])[self._carrier_of]
-        origins = np.array([at.origin(joint) for joint in self._carrier_list])[self._carrier_of]
-        centers = np.einsum("sij,sj->si", rotations, self.shapes.centers) + origins
+        rotations, origins = at.frames(self._carrier_list)
+        rotations = rotations[self._carrier_of]
+        centers = np.einsum("sij,sj->si", rotations, self.shapes.centers) + origins[self._carrier_of]
         return centers, np.einsum("sij,sj->si", rotations, self.shapes.axes)
 
     @cached_property
@@ -190,45 +187,49 @@ class Problem:
         rows = np.concatenate([found[i, : counts[i]] for i in range(len(counts))])
         return owners, rows
 
-    def state(self, z: Array, terrain: Terrain, window: float = 0.0) -> State:
+    def state(self, z: Array, terrain: Terrain, window: float = 0.0, at: Kinematics | None = None) -> State:
         """The equations at z.
 
         Args:
             z: (n,) free coordinates.
             terrain: what it stands on.
             window: m; contacts of a shape within this of its least gap are rows too; 0: one row a shape.
+            at: kinematics at z, where they are known.
         """
-        at = self.locate(z)
+        at = at or self.locate(z)
         basis = self.reduction.basis
         owners, contacts = self.search(at, terrain, window)
         jacobians = np.array([at.joint_jacobian(joint) for joint in self._carrier_list])
-        origins = np.array([at.origin(joint) for joint in self._carrier_list])
-        carrier = self._carrier_of[owners]
-        points = contacts[:, 1:4]
-        vertical = np.zeros_like(points)
-        vertical[:, 2] = 1.0
-        motion = contact_rows(jacobians, origins, carrier, points, contacts[:, 4:7], basis)
-        force = contact_rows(jacobians, origins, carrier, points, vertical, basis)
-        slack = contacts[:, 0]
-        if len(self._stop_columns) or self.one_sided:
-            rest = self._other_rows(at)
-            slack = np.concatenate([slack, rest[0]])
-            motion = np.vstack([motion, rest[1]])
-            force = np.vstack([force, rest[1]])
+        _, origins = at.frames(self._carrier_list)
+        owned = len(contacts)
+        size = owned + len(self._stop_columns) + len(self.one_sided)
+        slack, motion, force = np.empty(size), np.empty((size, self.n)), np.empty((size, self.n))
+        slack[:owned] = contacts[:, 0]
+        contact_rows(
+            jacobians,
+            origins,
+            self._carrier_of[owners],
+            contacts[:, 1:4],
+            contacts[:, 4:7],
+            basis,
+            motion,
+            force,
+        )
+        self._other_rows(at, slack[owned:], motion[owned:])
+        force[owned:] = motion[owned:]
         closure, closing = self.loops(at)
         return State(
             z, at.q, at, self.load(at), slack, motion, force, owners, contacts, closure, closing
         )  # fmt: skip
 
-    def _other_rows(self, at: Kinematics) -> tuple[Array, Array]:
-        """Slack and gradient of stops and one-sided elements."""
-        slack = self._stop_signs * (self._stop_limits - at.q[self._stop_columns])
-        rows = self._stop_rows
-        if self.one_sided:
-            slack = np.concatenate([slack, [element.slack(at) for element in self.one_sided]])
-            more = [element.slack_gradient(at) @ self.reduction.basis for element in self.one_sided]
-            rows = np.vstack([rows, *more])
-        return slack, rows
+    def _other_rows(self, at: Kinematics, slack: Array, motion: Array) -> None:
+        """Fill in slack and gradient of stops and one-sided elements."""
+        stops = len(self._stop_columns)
+        slack[:stops] = self._stop_signs * (self._stop_limits - at.q[self._stop_columns])
+        motion[:stops] = self._stop_rows
+        for row, element in enumerate(self.one_sided, start=stops):
+            slack[row] = element.slack(at)
+            motion[row] = element.slack_gradient(at) @ self.reduction.basis
 
     def load(self, at: Kinematics) -> Array:
         """(n,) what the supports must carry: gravity minus springs."""

@@ -11,7 +11,7 @@ import pinocchio as pin
 from rover_pin.mechanism import Kinematics
 from rover_pin.numerics import Array, cross, frozen
 from rover_pin.statics import residuals
-from rover_pin.statics.ground import JUMP, PUSH, Footing, failed, let_go
+from rover_pin.statics.ground import JUMP, PUSH, Footing, failed, let_go, off_map
 from rover_pin.statics.loads import Loads, share_loads
 from rover_pin.statics.problem import Problem, State
 from rover_pin.statics.relax import UPRIGHT
@@ -41,12 +41,13 @@ def report(
     """The stance of a footing; a pose that fails a check is a status, never a stance."""
     if footing.status is Status.SETTLED and problem.tilt(footing.z) > UPRIGHT:
         footing = failed(footing.z, Status.TIPS, None, "it stands on its side: tilt above 80 deg")
-    off = wheel_off_map(problem, problem.locate(footing.z), terrain)
+    at = problem.locate(footing.z)
+    off = wheel_off_map(problem, at, terrain)
     if off is not None:
-        footing = failed(footing.z, Status.OFF_MAP, off, f"{off} reaches beyond the map")
+        footing = off_map(footing.z, off)
     if footing.status is not Status.SETTLED:
         return _stance(problem, footing, terrain, locked, None, None)
-    state = problem.state(footing.z, terrain, window=1e-5)
+    state = problem.state(footing.z, terrain, 1e-5, at)
     loads = share_loads(problem, state)
     start = footing.z
     footing, undetermined = _judge(problem, footing, terrain, state, loads)
@@ -122,8 +123,8 @@ def _stance(
     contacts: tuple[Contact, ...] = ()
     extra: dict[str, Any] = {}
     if state is not None and loads is not None:
-        contacts = _contacts(problem, state, loads)
-        extra = _forces(problem, state, loads, contacts, terrain, gaps)
+        contacts = _contacts(problem, at, state, loads)
+        extra = _forces(problem, at, state, loads, contacts, terrain, gaps)
         extra["undetermined"] = undetermined
     return Stance(
         rover=rover,
@@ -144,9 +145,9 @@ def _stance(
     )
 
 
-def _contacts(problem: Problem, state: State, loads: Loads) -> tuple[Contact, ...]:
+def _contacts(problem: Problem, at: Kinematics, state: State, loads: Loads) -> tuple[Contact, ...]:
     """The touching places, with their loads and rolling directions."""
-    centers, axes = problem.place_shapes(problem.locate(state.z))
+    centers, axes = problem.place_shapes(at)
     found = []
     for row in loads.touching[loads.touching < len(state.owners)]:
         owner = int(state.owners[row])
@@ -185,6 +186,7 @@ def _rolling(away: Array, axis: Array, normal: Array) -> tuple[Array, float]:
 
 def _forces(
     problem: Problem,
+    at: Kinematics,
     state: State,
     loads: Loads,
     contacts: tuple[Contact, ...],
@@ -193,7 +195,6 @@ def _forces(
 ) -> dict[str, Any]:
     """Loads, springs, stops and tensions by name, and the residuals."""
     rover = problem.rover
-    at = problem.locate(state.z)
     per_wheel = {shape.name: 0.0 for shape in rover.shapes}
     for contact in contacts:
         per_wheel[contact.wheel] += contact.load
@@ -230,7 +231,7 @@ def _residuals(
     """What `residuals` finds at this pose with these loads."""
     rover = problem.rover
     model = problem.model
-    at = Kinematics(model, model.createData(), state.q)  # nothing of the solver's data
+    at = Kinematics(model, problem.checking, state.q)
     internal = np.zeros(model.nv)
     row = 0
     for loop in rover.loops:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 
 from rover_pin.contact.place import SEGMENT
 from rover_pin.mechanism import Bilateral, Kinematics
@@ -60,7 +59,8 @@ def equilibrium(
     for spring in rover.springs:
         total = total + spring.force(at)
     unbalanced = free.T @ total
-    scale = weight * np.where(_turns(model, free), max(rover.wheel_span, 1e-3), 1.0)
+    turns = np.array(rover.turning)[np.argmax(np.abs(free), axis=0)]
+    scale = weight * np.where(turns, max(rover.wheel_span, 1e-3), 1.0)
     return float(np.max(np.abs(unbalanced) / scale, initial=0.0))
 
 
@@ -75,11 +75,11 @@ def gap(rover: Rover, at: Kinematics, terrain: Terrain, contacts: Sequence[Conta
     centers = np.array([at.point(shape.joint, shape.center) for shape in rover.shapes])
     axes = np.array([at.rotation(shape.joint) @ shape.axis for shape in rover.shapes])
     place = {shape.name: i for i, shape in enumerate(rover.shapes)}
-    for contact in contacts:
+    points = np.array([contact.point for contact in contacts]).reshape(-1, 3)
+    off_surface = np.abs(terrain.height(points[:, 0], points[:, 1]) - points[:, 2])
+    for contact, on_surface in zip(contacts, off_surface.tolist(), strict=True):
         i = place[contact.wheel]
         shape = rover.shapes[i]
-        x, y, z = contact.point
-        on_surface = abs(float(terrain.height(x, y)) - z)
         apart = contact.point - centers[i]
         line = _to_segment if shape.form == SEGMENT else _to_ring
         skin = line(apart, axes[i], shape.ring) - shape.tread
@@ -111,15 +111,6 @@ def complementarity(
     open_gaps = [max(-gap, 0.0) for gap in gaps.values()]
     rows = np.max(np.abs(slack * multipliers) / weight, initial=0.0)
     return float(max([0.0, float(rows), *products, *negative, *open_gaps]))
-
-
-def _turns(model: Any, free: Array) -> NDArray[np.bool_]:
-    """(n,) whether a direction turns the joint that it moves most."""
-    leading = np.argmax(np.abs(free), axis=0)
-    kinds = [model.joints[i].shortname() for i in range(2, model.njoints)]
-    turns = np.array([False] * 3 + [True] * 3 + [not kind.startswith("JointModelP") for kind in kinds])
-    chosen: NDArray[np.bool_] = turns[leading]
-    return chosen
 
 
 def _deepest(rover: Rover, centers: Array, axes: Array, terrain: Terrain) -> float:

@@ -12,11 +12,12 @@ import numpy as np
 from rover_pin.errors import InputError, OffMapError, PostureError
 from rover_pin.mechanism.lock import engage
 from rover_pin.statics.follow import follow, straight
-from rover_pin.statics.ground import Footing, failed, settle_on_level
+from rover_pin.statics.ground import Footing, failed, off_map, settle_on_level
 from rover_pin.statics.held import BASE, free_coordinates, held_joints
 from rover_pin.statics.problem import Problem
 from rover_pin.statics.report import report
 from rover_pin.statics.stance import Stance, Status
+from rover_pin.statics.verdict import wheel_off_map
 from rover_pin.terrain import Terrain
 
 if TYPE_CHECKING:
@@ -82,7 +83,12 @@ def settle(
         stance = report(problem, found, terrain, locked)
         if stance.status not in (Status.NO_CONVERGENCE, Status.TIPS):
             return stance
-    return report(problem, follow(problem, footing, z, terrain, level), terrain, locked)
+    stance = report(problem, follow(problem, footing, z, terrain, level), terrain, locked)
+    if stance.status in (Status.TIPS, Status.NO_CONVERGENCE):
+        beyond = wheel_off_map(problem, problem.locate(z), terrain)
+        if beyond is not None:  # what it fell over is not on the map
+            return report(problem, off_map(z, beyond), terrain, locked)
+    return stance
 
 
 def on_level(
