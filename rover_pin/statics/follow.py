@@ -133,10 +133,10 @@ def _let_go(
             return tipped(problem, found.z, _most_moved(problem, current.z, found.z))
         return found
     moved = np.abs(found.z - current.z) / problem.unit
-    if np.max(moved) > JUMP and lost is None:
+    if np.max(moved) > JUMP:
         moved[_undetermined(problem, current, before)] = 0.0
-    if np.max(moved) > JUMP and lost is None:
-        return tipped(problem, found.z, _most_moved(problem, current.z, found.z))
+    if np.max(moved) > JUMP:
+        return tipped(problem, found.z, lost or _most_moved(problem, current.z, found.z))
     return found
 
 
