@@ -11,6 +11,7 @@ import numpy as np
 
 from rover_pin.errors import PostureError
 from rover_pin.numerics import Array
+from rover_pin.statics.level import on_level
 
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
@@ -141,8 +142,6 @@ def _clearance(
     gravity: float,
 ) -> tuple[float, float] | None:
     """Lowest belly point over level ground and the belly's mean height [m]; None where it does not stand."""
-    from rover_pin.statics.settle import on_level
-
     values = {**start, **dict(zip(movers, (float(value) for value in u), strict=True))}
     problem, footing = on_level(rover, values, locked, gravity)
     if footing.status != "settled":

@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
-from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from rover_pin.errors import InputError, OffMapError, PostureError
 from rover_pin.mechanism.lock import engage
+from rover_pin.statics.clearance_goal import posture_for_clearance
 from rover_pin.statics.follow import follow, straight
-from rover_pin.statics.ground import Footing, failed, off_map, settle_on_level
-from rover_pin.statics.held import BASE, free_coordinates, held_joints
-from rover_pin.statics.problem import Problem
+from rover_pin.statics.ground import failed, off_map
+from rover_pin.statics.held import BASE
+from rover_pin.statics.level import on_level
 from rover_pin.statics.report import report
 from rover_pin.statics.stance import Stance, Status
 from rover_pin.statics.verdict import wheel_off_map
@@ -22,11 +22,6 @@ from rover_pin.terrain import Terrain
 
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
-
-LEVEL = Terrain.flat()
-
-_grounds: WeakKeyDictionary[Rover, dict[tuple[object, ...], tuple[Problem, Footing]]] = WeakKeyDictionary()
-_KEPT = 64
 
 
 def settle(
@@ -91,22 +86,6 @@ def settle(
     return stance
 
 
-def on_level(
-    rover: Rover, values: Mapping[str, float], locked: tuple[str, ...], gravity: float
-) -> tuple[Problem, Footing]:
-    """The problem of a posture and its stance on level ground at height 0; kept per rover and posture."""
-    key = (tuple(sorted(values.items())), locked, gravity)
-    kept = _grounds.setdefault(rover, {})
-    if key not in kept:
-        held = held_joints(rover, locked)
-        problem = Problem(rover, free_coordinates(rover, held, values, 0.0, 0.0, 0.0), gravity)
-        footing = settle_on_level(problem, values, LEVEL)
-        if len(kept) >= _KEPT:
-            kept.pop(next(iter(kept)))
-        kept[key] = (problem, footing)
-    return kept[key]
-
-
 def _check(rover: Rover, terrain: Terrain, x: float, y: float, yaw: float, gravity: float) -> None:
     if not isinstance(terrain, Terrain):
         raise InputError(
@@ -162,8 +141,6 @@ def _posture(
     given = rover.resolve_posture(joints)
     locked = {name for name in given if name not in rover.actuated and name not in _drives(rover)}
     if isinstance(posture, Mapping) and "clearance" in posture:
-        from rover_pin.statics.clearance_goal import posture_for_clearance
-
         if len(posture) > 1:
             raise PostureError(
                 "a clearance goal stands alone",

@@ -7,7 +7,7 @@ import pytest
 
 import rover_pin as rp
 from rover_pin.statics.follow import follow, straight
-from rover_pin.statics.settle import on_level
+from rover_pin.statics.level import on_level
 from rover_pin.statics.stance import Status
 
 STEPS = 80

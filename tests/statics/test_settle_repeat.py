@@ -8,7 +8,7 @@ import pytest
 from little_rover import FIXTURES, fixture
 
 import rover_pin as rp
-from rover_pin.statics import settle as module
+from rover_pin.statics import level as module
 
 ROUGH = rp.Terrain.rough(1, 0.05, 0.8)
 NAMES = ("rocker_bogie", "hit_mrii", "rigid4", "sprung4", "trailing4", "turnbuckle")
@@ -58,9 +58,9 @@ def test_what_is_kept_of_level_ground_changes_nothing():
     """More postures than are kept, then the first again."""
     rover = fresh("hit_mrii")
     first = fingerprint(rp.settle(rover, ROUGH, x=0.4, joints={"L_act": 0.0}))
-    for i in range(module._KEPT + 3):
+    for i in range(module.KEPT + 3):
         rp.settle(rover, rp.Terrain.flat(), joints={"L_act": 0.001 * (i + 1)})
-    assert len(module._grounds[rover]) <= module._KEPT
+    assert len(module._footings[rover]) <= module.KEPT
     assert fingerprint(rp.settle(rover, ROUGH, x=0.4, joints={"L_act": 0.0})) == first
 
 
