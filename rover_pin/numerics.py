@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import numba
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rover_pin.kernel_cache import discard_stale
+
 Array = NDArray[np.float64]
+
+discard_stale(Path(__file__).parent)
 
 F = TypeVar("F", bound=Callable[..., Any])
 
