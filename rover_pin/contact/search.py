@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_pin.contact.cells import search_cells
 from rover_pin.contact.place import Frame, basis
 from rover_pin.contact.plane import plane_contacts, put
 from rover_pin.contact.probe import across, keep, probe
@@ -107,6 +108,8 @@ def find_contacts(
         count = probe(kind, table, params, spacing, form, frame, cx, cy, cz, ring, tread, window, out, count)
     if kind == 2:
         count = across(kind, table, params, form, frame, cx, cy, cz, ring, tread, window, out, count)
+        if window > 0.0 and count > 0:
+            count = search_cells(table, params, form, frame, cx, cy, cz, ring, tread, window, out, count)
     if count == 0:
         h, hx, hy, _, _, _ = surface(kind, table, params, cx, cy)
         s = 1.0 / math.sqrt(1.0 + hx * hx + hy * hy)

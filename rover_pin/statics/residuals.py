@@ -17,12 +17,14 @@ from rover_pin.contact.place import SEGMENT
 from rover_pin.mechanism import Bilateral, Kinematics
 from rover_pin.numerics import Array
 from rover_pin.statics.stance import Contact
+from rover_pin.terrain.surface import LINEAR
 
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
     from rover_pin.terrain import Terrain
 
 _TURNS = np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False)
+_MOST_PLACES = 40_000
 _SHARES = np.linspace(-1.0, 1.0, len(_TURNS))
 _AXES = np.eye(3)
 _NEXT, _AFTER = np.array([1, 2, 0]), np.array([2, 0, 1])
@@ -69,7 +71,8 @@ def gap(rover: Rover, at: Kinematics, terrain: Terrain, contacts: Sequence[Conta
 
     Of every contact: its point's height over the surface and its distance to the wheel's skin (distance to
     the circle minus the tread, in closed form). Of every wheel: how deep 48 points of its skin lie below the
-    surface, each where the tread's ball looks straight at the ground.
+    surface, each where the tread's ball looks straight at the ground; on a bilinear map, whose nodes can
+    stand up between those, also how deep its nodes and the places halfway between lie in the tread.
     """
     worst = 0.0
     centers = np.array([at.point(shape.joint, shape.center) for shape in rover.shapes])
@@ -84,7 +87,10 @@ def gap(rover: Rover, at: Kinematics, terrain: Terrain, contacts: Sequence[Conta
         line = _to_segment if shape.form == SEGMENT else _to_ring
         skin = line(apart, axes[i], shape.ring) - shape.tread
         worst = max(worst, on_surface, abs(skin))
-    return max(worst, _deepest(rover, centers, axes, terrain))
+    worst = max(worst, _deepest(rover, centers, axes, terrain))
+    if terrain.kind == LINEAR:
+        worst = max(worst, _swallowed(rover, centers, axes, terrain))
+    return worst
 
 
 def closure(rover: Rover, at: Kinematics) -> float:
@@ -126,6 +132,32 @@ def _deepest(rover: Rover, centers: Array, axes: Array, terrain: Terrain) -> flo
     z = balls[:, 2] - treads / steep
     deep = (terrain.height(x, y) - z) / np.sqrt(1.0 + np.sum(terrain.gradient(x, y) ** 2, axis=1))
     return float(np.max(deep, initial=0.0))
+
+
+def _swallowed(rover: Rover, centers: Array, axes: Array, terrain: Terrain) -> float:
+    """How deep nodes of a bilinear map, and places halfway between, lie in a tread [m]; 0 where none does."""
+    forms = np.array([shape.form for shape in rover.shapes])
+    sizes = np.array([shape.ring for shape in rover.shapes])
+    treads = np.array([shape.tread for shape in rover.shapes])
+    pitch, origin = 0.5 * terrain.spacing, terrain.params[2:4]
+    level = axes[:, :2]
+    share = np.where(forms[:, None] == SEGMENT, np.abs(level), np.sqrt(np.maximum(1.0 - level**2, 0.0)))
+    reach = sizes[:, None] * share + treads[:, None]
+    first = np.ceil((centers[:, :2] - reach - origin) / pitch)
+    counts = np.max(np.floor((centers[:, :2] + reach - origin) / pitch) - first, axis=0) + 1.0
+    if np.prod(counts) > _MOST_PLACES:
+        return 0.0
+    x, y = (origin[k] + pitch * (first[:, k, None] + np.arange(counts[k])) for k in (0, 1))
+    places = np.empty((len(centers), y.shape[1], x.shape[1], 3))
+    places[..., 0], places[..., 1] = x[:, None, :], y[:, :, None]
+    places[..., 2] = terrain.height(places[..., 0], places[..., 1])
+    away = places - centers[:, None, None, :]
+    along = np.einsum("sijk,sk->sij", away, axes)
+    across = np.sqrt(np.maximum(np.einsum("sijk,sijk->sij", away, away) - along**2, 0.0))
+    forms, sizes, treads = forms[:, None, None], sizes[:, None, None], treads[:, None, None]
+    to_ring = np.hypot(along, across - sizes)
+    to_segment = np.hypot(along - np.clip(along, -sizes, sizes), across)
+    return float(np.max(treads - np.where(forms == SEGMENT, to_segment, to_ring), initial=0.0))
 
 
 def _to_ring(away: Array, axis: Array, ring: float) -> float:

@@ -131,3 +131,67 @@ def lowered(terrain, shape, gap=0.0):
             break
         center[2] -= (row[0] - gap) / max(row[6], 0.3)
     return form, center, axis, ring, tread
+
+
+@numba.njit
+def _far(kind, table, params, form, c, a, ring, x, y):
+    wx, wy, wz = x - c[0], y - c[1], surface(kind, table, params, x, y)[0] - c[2]
+    along = wx * a[0] + wy * a[1] + wz * a[2]
+    across = math.sqrt(max(wx * wx + wy * wy + wz * wz - along * along, 0.0))
+    if form == 1:
+        return math.hypot(across, along - min(max(along, -ring), ring))
+    return math.hypot(along, across - ring)
+
+
+@numba.njit
+def _dense(kind, table, params, form, c, a, ring, x0, y0, nx, ny, pitch):
+    """Least of a grid's far values after every low place is followed on 9 x 9 grids, ever narrower."""
+    d = np.empty((nx, ny))
+    for i in range(nx):
+        for j in range(ny):
+            d[i, j] = _far(kind, table, params, form, c, a, ring, x0 + i * pitch, y0 + j * pitch)
+    best = d.min()
+    limit = best + pitch
+    for i in range(1, nx - 1):
+        for j in range(1, ny - 1):
+            if d[i, j] > limit or d[i, j] > d[i - 1 : i + 2, j - 1 : j + 2].min():
+                continue
+            x, y, wide, least = x0 + i * pitch, y0 + j * pitch, pitch, d[i, j]
+            for _ in range(400):
+                px, py, before = x, y, least
+                for k in range(81):
+                    qx, qy = x + wide * (k // 9 - 4) / 4, y + wide * (k % 9 - 4) / 4
+                    far = _far(kind, table, params, form, c, a, ring, qx, qy)
+                    if far < least:
+                        px, py, least = qx, qy, far
+                x, y = px, py
+                if least > before - 1e-3 * wide * wide:
+                    wide *= 0.4
+                if wide < 1e-9:
+                    break
+            best = min(best, least)
+    return best
+
+
+def dense(terrain, shape, finest=0.003):
+    """Gap of a shape whose line is above a bilinear map: a grid with all nodes, its low places refined."""
+    form, center, axis, ring, tread = shape
+    reach = ring * (np.sqrt(1 - axis[:2] ** 2) if form == 0 else np.abs(axis[:2])) + tread + 0.02
+    pitch = terrain.spacing / math.ceil(max(terrain.spacing / finest, 16.0))
+    corner = np.floor((center[:2] - reach - terrain.params[2:4]) / terrain.spacing) * terrain.spacing
+    corner += terrain.params[2:4] - pitch
+    nx, ny = (np.ceil((center[:2] + reach - corner) / pitch) + 2).astype(int)
+    return (
+        _dense(
+            terrain.kind, terrain.table, terrain.params, form, center, axis, ring, *corner, nx, ny, pitch,
+        )
+        - tread
+    )  # fmt: skip
+
+
+def is_minimum(terrain, shape, x, y, step=1e-6):
+    """Whether the shape's line is no nearer on a small circle about (x, y) than there."""
+    turn = np.linspace(0.0, 2.0 * math.pi, 33)
+    px, py = np.append(x + step * np.cos(turn), x), np.append(y + step * np.sin(turn), y)
+    far = to_line(shape, px, py, heights(terrain, px, py))
+    return bool(np.min(far[:-1]) > far[-1] - 1e-12)

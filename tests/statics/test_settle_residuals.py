@@ -208,3 +208,40 @@ def test_no_settled_stance_hides_a_residual():
                     assert found.residuals["equilibrium"] < 1e-6, (name, ground, x, y)
                     assert found.residuals["loop_m"] < 1e-6
                     assert found.residuals["complementarity"] < 1e-6
+
+
+def test_a_node_in_a_tread_shows():
+    """On a bilinear map a node that stands 0.1 mm inside a tread is seen, wherever under it."""
+    rover = fixture("thirds")
+    nodes = rp.Terrain.rough(5, 0.02, 0.8, size=8.0, spacing=0.03, interpolation="linear")
+    found = rp.settle(rover, nodes, x=0.1, y=0.2, yaw=0.3)
+    assert found.settled, found.reason
+    here = at(rover, found.configuration)
+    wheel = rover.shapes[0]
+    center = here.point(wheel.joint, wheel.center)
+    axis = here.rotation(wheel.joint) @ wheel.axis
+
+    def depth(x, y, z):
+        away = np.array([x, y, z]) - center
+        along = away @ axis
+        return wheel.tread - np.hypot(along, np.linalg.norm(away - along * axis) - wheel.ring)
+
+    (x0, y0), pitch = nodes.params[2:4], nodes.spacing
+    heights = np.array(
+        [[nodes.height(x0 + j * pitch, y0 + i * pitch) for j in range(267)] for i in range(267)]
+    )
+    i, j = round((center[1] - y0) / pitch), round((center[0] - x0) / pitch)
+    tried = 0
+    for row, column in [(i, j), (i + 1, j), (i, j - 1), (i - 1, j + 2)]:
+        x, y = x0 + column * pitch, y0 + row * pitch
+        levels = np.linspace(heights[row, column], center[2], 20000)
+        z = next((z for z in levels if depth(x, y, z) > 1e-4), None)
+        if z is None:
+            continue
+        tried += 1
+        spiked = heights.copy()
+        spiked[row, column] = z
+        map_ = rp.Terrain.from_grid(spiked, pitch, origin=(x0, y0), interpolation="linear")
+        assert residuals.gap(rover, here, map_, []) >= 1e-4
+    assert tried >= 2
+    assert residuals.gap(rover, here, nodes, found.contacts) < 1e-6
