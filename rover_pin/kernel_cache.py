@@ -8,11 +8,16 @@ ROOMS = ("contact", "terrain", "statics")
 """Folders that hold formulas; one may be compiled into another."""
 
 
+def is_cold(package: Path) -> bool:
+    """Whether the first stance will wait for the compiler (half a minute)."""
+    return not any((package / "contact" / "__pycache__").glob("search.find_all*.nbc"))
+
+
 def discard_stale(package: Path) -> int:
     """Remove compiled formulas older than the newest source, and say how many.
 
-    Numba compares a cached function with its own file only. A formula that was compiled into its callers would
-    go on in them after its own file has changed, and numbers would be wrong without a sign.
+    Numba compares a cached function with its own file only. A formula that was compiled into its callers
+    would go on in them after its own file has changed, and numbers would be wrong without a sign.
 
     Args:
         package: the folder of the package.

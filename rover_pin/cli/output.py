@@ -9,6 +9,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rover_pin.kernel_cache import is_cold
+
 if TYPE_CHECKING:
     from rich.table import Table
 
@@ -54,6 +56,13 @@ def new_table(title: str, *columns: str, left: int = 1) -> Table:
 def line(text: str) -> None:
     """A line on stdout."""
     sys.stdout.write(text + "\n")
+
+
+def announce_compilation() -> None:
+    """Tell somebody who waits at a terminal why the first stance takes its time."""
+    package = Path(__file__).resolve().parents[1]
+    if sys.stderr.isatty() and is_cold(package):
+        aside("compiling formulas, once: about half a minute")
 
 
 def aside(text: str) -> None:

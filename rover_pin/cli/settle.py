@@ -56,7 +56,7 @@ def settle(
     from rover_pin import settle as stand
     from rover_pin.analysis.words import gravity as parse_gravity
     from rover_pin.analysis.words import posture as parse_posture
-    from rover_pin.cli.output import aside, check_outputs, print_json
+    from rover_pin.cli.output import announce_compilation, aside, check_outputs, print_json
     from rover_pin.cli.stance_report import measured, print_stance, stance_object
     from rover_pin.terrain import Terrain
 
@@ -69,6 +69,7 @@ def settle(
     mu = _friction(friction)
     ground = Terrain.parse(terrain, spacing=spacing, interpolation=interpolation)
     rover = _loaded(load_rover(robot, sidecar, package, skip_missing_includes, param), payload)
+    announce_compilation()
     stance = stand(
         rover,
         ground,

@@ -41,7 +41,7 @@ def study(
 ) -> int:
     """Many cases of one question, each a row of a dataset."""
     from rover_pin.analysis import Study
-    from rover_pin.cli.output import aside, check_outputs, print_json
+    from rover_pin.cli.output import announce_compilation, aside, check_outputs, print_json
     from rover_pin.cli.study_report import print_study, study_object
 
     path = out or Path(f"{spec.stem if spec else 'study'}.nc")
@@ -53,6 +53,7 @@ def study(
         )
     started = time.perf_counter()
     try:
+        announce_compilation()
         with _bar() as progress:
             data = asked.run(
                 engine=engine,
