@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+import recheck
 from little_rover import fixture
 
 import rover_pin as rp
@@ -213,35 +214,40 @@ def test_no_settled_stance_hides_a_residual():
 def test_a_node_in_a_tread_shows():
     """On a bilinear map a node that stands 0.1 mm inside a tread is seen, wherever under it."""
     rover = fixture("thirds")
-    nodes = rp.Terrain.rough(5, 0.02, 0.8, size=8.0, spacing=0.03, interpolation="linear")
+    nodes = rp.Terrain.rough(5, 0.02, 0.8, size=6.0, spacing=0.01, interpolation="linear")
     found = rp.settle(rover, nodes, x=0.1, y=0.2, yaw=0.3)
     assert found.settled, found.reason
     here = at(rover, found.configuration)
+    assert residuals.gap(rover, here, nodes, found.contacts) < 1e-6
     wheel = rover.shapes[0]
     center = here.point(wheel.joint, wheel.center)
     axis = here.rotation(wheel.joint) @ wheel.axis
-
-    def depth(x, y, z):
-        away = np.array([x, y, z]) - center
-        along = away @ axis
-        return wheel.tread - np.hypot(along, np.linalg.norm(away - along * axis) - wheel.ring)
-
     (x0, y0), pitch = nodes.params[2:4], nodes.spacing
-    heights = np.array(
-        [[nodes.height(x0 + j * pitch, y0 + i * pitch) for j in range(267)] for i in range(267)]
-    )
+    rows, columns = nodes.table.shape
+    x, y = x0 + pitch * np.arange(columns), y0 + pitch * np.arange(rows)
+    heights = nodes.height(x, y[:, None])
     i, j = round((center[1] - y0) / pitch), round((center[0] - x0) / pitch)
     tried = 0
-    for row, column in [(i, j), (i + 1, j), (i, j - 1), (i - 1, j + 2)]:
-        x, y = x0 + column * pitch, y0 + row * pitch
-        levels = np.linspace(heights[row, column], center[2], 20000)
-        z = next((z for z in levels if depth(x, y, z) > 1e-4), None)
-        if z is None:
+    for row, column in [(i + a, j + b) for a in range(-6, 7, 3) for b in range(-6, 7, 3)]:
+        level = np.linspace(heights[row, column], center[2], 20000)
+        away = np.stack([np.full(20000, x[column]), np.full(20000, y[row]), level], axis=1) - center
+        along = away @ axis
+        across = np.linalg.norm(away - along[:, None] * axis, axis=1)
+        inside = np.flatnonzero(wheel.tread - np.hypot(along, across - wheel.ring) > 1e-4)
+        if inside.size == 0:
             continue
         tried += 1
         spiked = heights.copy()
-        spiked[row, column] = z
-        map_ = rp.Terrain.from_grid(spiked, pitch, origin=(x0, y0), interpolation="linear")
-        assert residuals.gap(rover, here, map_, []) >= 1e-4
-    assert tried >= 2
-    assert residuals.gap(rover, here, nodes, found.contacts) < 1e-6
+        spiked[row, column] = level[inside[0]]
+        with_node = rp.Terrain.from_grid(spiked, pitch, origin=(x0, y0), interpolation="linear")
+        assert residuals.gap(rover, here, with_node, []) >= 1e-4
+    assert tried >= 8
+
+
+def test_a_stance_on_jagged_ground_holds_for_an_independent_look():
+    """A node between the coarse look's samples once left a wheel 0.16 mm in the ground."""
+    rough = rp.Terrain.rough(2, 0.1113632324418493, 0.43620415281284786, interpolation="linear")
+    place = {"x": 0.8955527539839441, "y": -2.079048147249564, "yaw": -0.8445661862581462}
+    found = rp.settle(fixture("rigid4"), rough, **place)
+    assert found.settled
+    assert max(recheck.residuals(found)) < 1e-8
