@@ -95,6 +95,7 @@ class Problem:
         self.weight = rover.mass * gravity
         self.span = max(rover.wheel_span, 1e-3)
         self.shapes = pack(rover.shapes)
+        self.reach = float(np.max(self.shapes.rings + self.shapes.treads, initial=0.0))
         self.carriers, index = np.unique(self.shapes.joints, return_inverse=True)
         self._carrier_of: Integers = index.astype(np.int64).reshape(-1)
         self._carrier_list = tuple(int(joint) for joint in self.carriers)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pinocchio as pin
+from numpy.typing import NDArray
 
 from rover_pin.mechanism import Kinematics
 from rover_pin.numerics import Array, cross, frozen
@@ -147,25 +148,24 @@ def _stance(
 
 def _contacts(problem: Problem, at: Kinematics, state: State, loads: Loads) -> tuple[Contact, ...]:
     """The touching places, with their loads and rolling directions."""
+    rows = loads.touching[loads.touching < len(state.owners)]
+    owners = state.owners[rows]
     centers, axes = problem.place_shapes(at)
+    points, normals = frozen(state.contacts[rows, 1:4]), frozen(state.contacts[rows, 4:7])
+    turning = np.array([hasattr(shape, "drive") for shape in problem.rover.shapes])[owners]
+    rolling, radii = _rolling(points - centers[owners], axes[owners], normals, turning)
     found = []
-    for row in loads.touching[loads.touching < len(state.owners)]:
-        owner = int(state.owners[row])
+    for i, (row, owner) in enumerate(zip(rows.tolist(), owners.tolist(), strict=True)):
         shape = problem.rover.shapes[owner]
-        gap, *place = (float(value) for value in state.contacts[row])
-        normal = np.array(place[3:])
-        rolling, radius = np.zeros(3), 0.0
-        if hasattr(shape, "drive"):
-            rolling, radius = _rolling(np.array(place[:3]) - centers[owner], axes[owner], normal)
         found.append(
             Contact(
                 wheel=shape.name,
                 joint=int(shape.joint),
-                point=frozen(place[:3]),
-                normal=frozen(normal),
-                rolling=frozen(rolling),
-                radius=radius,
-                gap=gap,
+                point=points[i],
+                normal=normals[i],
+                rolling=rolling[i],
+                radius=float(radii[i]),
+                gap=float(state.contacts[row, 0]),
                 load=float(loads.multipliers[row]),
                 friction=float(shape.friction),
                 free=bool(getattr(shape, "free", False)),
@@ -174,14 +174,17 @@ def _contacts(problem: Problem, at: Kinematics, state: State, loads: Loads) -> t
     return tuple(found)
 
 
-def _rolling(away: Array, axis: Array, normal: Array) -> tuple[Array, float]:
-    """Rolling direction, across axis and normal, and the lever [m] of a force along it about the axle."""
-    across = cross(axis, normal)
-    size = float(np.sqrt(across @ across))
-    if size < 1e-9:
-        return np.zeros(3), 0.0
-    rolling = across / size
-    return rolling, abs(float(cross(away, rolling) @ axis))
+def _rolling(away: Array, axes: Array, normals: Array, turning: NDArray[np.bool_]) -> tuple[Array, Array]:
+    """Rolling directions (c, 3), across axis and normal, and levers (c,) [m] of a force along them.
+
+    Zero where the shape does not turn, or lies on its side.
+    """
+    across = cross(axes, normals)
+    size = np.sqrt(np.sum(across * across, axis=1, keepdims=True))
+    rolls = turning[:, None] & (size > 1e-9)
+    rolling = np.where(rolls, across / np.where(rolls, size, 1.0), 0.0)
+    levers = np.abs(np.sum(cross(away, rolling) * axes, axis=1))
+    return frozen(rolling), frozen(levers)
 
 
 def _forces(

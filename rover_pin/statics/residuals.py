@@ -15,7 +15,7 @@ import pinocchio as pin
 
 from rover_pin.contact.place import SEGMENT
 from rover_pin.mechanism import Bilateral, Kinematics
-from rover_pin.numerics import Array
+from rover_pin.numerics import Array, cross
 from rover_pin.statics.stance import Contact
 from rover_pin.terrain.surface import LINEAR
 
@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 _TURNS = np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False)
 _MOST_PLACES = 40_000
 _SHARES = np.linspace(-1.0, 1.0, len(_TURNS))
+_LEVEL = 0.1  # height over the centre, as a share of the ring, up to which a ring is looked at
 _AXES = np.eye(3)
-_NEXT, _AFTER = np.array([1, 2, 0]), np.array([2, 0, 1])
 _COSINES, _SINES = np.cos(_TURNS), np.sin(_TURNS)
 
 
@@ -120,17 +120,18 @@ def complementarity(
 
 
 def _deepest(rover: Rover, centers: Array, axes: Array, terrain: Terrain) -> float:
-    """How deep the skin lies in the ground at worst [m], at most 0 where nowhere."""
+    """How deep the skin of the shapes' lower halves lies in the ground at worst [m], 0 where nowhere."""
     forms = np.array([shape.form for shape in rover.shapes])[:, None, None]
     sizes = np.array([shape.ring for shape in rover.shapes])[:, None, None]
     along = np.where(forms == SEGMENT, _SHARES[:, None] * axes[:, None, :], _circles(axes))
-    balls = (centers[:, None, :] + sizes * along).reshape(-1, 3)
-    treads = np.repeat([shape.tread for shape in rover.shapes], len(_TURNS))
+    lower = (forms[:, :, 0] == SEGMENT) | (along[..., 2] < _LEVEL)
+    balls = (centers[:, None, :] + sizes * along)[lower]
+    treads = np.repeat([shape.tread for shape in rover.shapes], np.count_nonzero(lower, axis=1))
     slope = terrain.gradient(balls[:, 0], balls[:, 1])
     steep = np.sqrt(1.0 + np.sum(slope**2, axis=1))
     x, y = (balls[:, :2] + slope * (treads / steep)[:, None]).T
     z = balls[:, 2] - treads / steep
-    deep = (terrain.height(x, y) - z) / np.sqrt(1.0 + np.sum(terrain.gradient(x, y) ** 2, axis=1))
+    deep = (terrain.height(x, y) - z) / steep
     return float(np.max(deep, initial=0.0))
 
 
@@ -176,8 +177,8 @@ def _to_segment(away: Array, axis: Array, half: float) -> float:
 def _circles(axes: Array) -> Array:
     """(s, 48, 3) points of unit circles about the origin, across axes (s, 3)."""
     helpers = _AXES[np.argmin(np.abs(axes), axis=1)]
-    first = axes[:, _NEXT] * helpers[:, _AFTER] - axes[:, _AFTER] * helpers[:, _NEXT]
+    first = cross(axes, helpers)
     first /= np.sqrt(np.sum(first * first, axis=1, keepdims=True))
-    second = axes[:, _NEXT] * first[:, _AFTER] - axes[:, _AFTER] * first[:, _NEXT]
+    second = cross(axes, first)
     points: Array = _COSINES[:, None] * first[:, None, :] + _SINES[:, None] * second[:, None, :]
     return points

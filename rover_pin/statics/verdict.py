@@ -27,8 +27,16 @@ def wheel_off_map(problem: Problem, at: Kinematics, terrain: Terrain) -> str | N
         return None
     shapes = problem.shapes
     centers, axes = problem.place_shapes(at)
-    reach = half_extents(shapes.forms, axes, shapes.rings, shapes.treads)
     xmin, xmax, ymin, ymax = terrain.extent
+    x, y, most = centers[:, 0], centers[:, 1], problem.reach
+    if (
+        x.min() - most >= xmin
+        and x.max() + most <= xmax
+        and y.min() - most >= ymin
+        and y.max() + most <= ymax
+    ):
+        return None
+    reach = half_extents(shapes.forms, axes, shapes.rings, shapes.treads)
     low, high = centers[:, :2] - reach, centers[:, :2] + reach
     off = (low[:, 0] < xmin) | (high[:, 0] > xmax) | (low[:, 1] < ymin) | (high[:, 1] > ymax)
     return str(problem.rover.shapes[int(np.argmax(off))].name) if np.any(off) else None
