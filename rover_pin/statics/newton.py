@@ -93,9 +93,9 @@ def land(
         if size >= 0 and len(state.slack) != size:
             return None
         size = len(state.slack)
-        rows = np.vstack([state.motion[active], state.closing[loops]])
-        gaps = np.concatenate([state.slack[active], state.closure[loops]])
-        sides = np.vstack([state.force[active], state.closing[loops]])
+        rows = _together(state.motion, active, state.closing, loops)
+        gaps = _together(state.slack, active, state.closure, loops)
+        sides = _together(state.force, active, state.closing, loops)
         try:
             if determinate:
                 step, pushed = np.linalg.solve(rows, -gaps), np.zeros(held)
@@ -121,6 +121,12 @@ def land(
             return Landing(z + step, state, active, full, pulling, sign)
         z = z + step
     return None
+
+
+def _together(supports: Array, active: Integers, closing: Array, loops: Integers) -> Array:
+    """Rows of the active supports, then of the loops."""
+    chosen = supports[active]
+    return np.concatenate([chosen, closing[loops]]) if len(loops) else chosen
 
 
 def _spread(state: State, active: Integers, loops: Integers, forces: Array) -> tuple[Array, Array]:
