@@ -75,6 +75,36 @@ class BodyFrame:
         return at.point_jacobian(self.joint, self.origin(at))
 
 
+def resolve_pair(
+    model: Any, specs: tuple[str | FrameSpec, str | FrameSpec], called: str, *, file: object, element: str
+) -> tuple[BodyFrame, BodyFrame]:
+    """Two frames of `model` that sit on different bodies.
+
+    Args:
+        model: Pinocchio's model.
+        specs: the frames, as in the sidecar.
+        called: what they are called in the message (`frames`, `ends`).
+        file: the sidecar.
+        element: the element of it that names them.
+
+    Raises:
+        SidecarError: a frame that the model does not have, or both on one body.
+    """
+    first, second = (
+        (FrameSpec(link=spec) if isinstance(spec, str) else spec).resolve(model, file=file, element=element)
+        for spec in specs
+    )
+    if first.joint == second.joint:
+        raise SidecarError(
+            f"both {called} sit on one body",
+            file=file,
+            element=element,
+            value=f"{first.label}, {second.label}",
+            cure="name frames on two bodies that move against each other",
+        )
+    return first, second
+
+
 def find_frame(model: Any, name: str, *, file: object = None, element: str | None = None) -> Any:
     """Pinocchio's frame of a link, else of a joint, by name.
 

@@ -9,8 +9,7 @@ import numpy as np
 import pinocchio as pin
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from rover_pin.errors import SidecarError
-from rover_pin.mechanism.frames import BodyFrame, FrameSpec
+from rover_pin.mechanism.frames import BodyFrame, FrameSpec, resolve_pair
 from rover_pin.mechanism.kinematics import Kinematics
 from rover_pin.numerics import Array, frozen
 
@@ -57,19 +56,7 @@ class LoopSpec(BaseModel):
             SidecarError: a frame that the model does not have, or both on one body.
         """
         element = f"loops.{self.name}"
-        ends = []
-        for spec in self.frames:
-            whole = FrameSpec(link=spec) if isinstance(spec, str) else spec
-            ends.append(whole.resolve(model, file=file, element=element))
-        first, second = ends
-        if first.joint == second.joint:
-            raise SidecarError(
-                "both frames sit on one body",
-                file=file,
-                element=element,
-                value=f"{first.label}, {second.label}",
-                cure="name frames on two bodies that move against each other",
-            )
+        first, second = resolve_pair(model, self.frames, "frames", file=file, element=element)
         length = self.length or 0.0
         if self.at == "zero":
             zero = Kinematics(model, model.createData(), np.zeros(model.nv))

@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from rover_pin.errors import MechanismError, SidecarError, nearest
-from rover_pin.mechanism.frames import BodyFrame, FrameSpec
+from rover_pin.mechanism.frames import BodyFrame, FrameSpec, resolve_pair
 from rover_pin.mechanism.kinematics import Kinematics
 from rover_pin.numerics import Array
 
@@ -67,19 +67,8 @@ class FrameSpringSpec(BaseModel):
             SidecarError: a frame that the model does not have, or both on one body.
         """
         element = f"springs.{self.name}"
-        ends = []
-        for spec in self.frames:
-            whole = FrameSpec(link=spec) if isinstance(spec, str) else spec
-            ends.append(whole.resolve(model, file=file, element=element))
-        if ends[0].joint == ends[1].joint:
-            raise SidecarError(
-                "both ends sit on one body",
-                file=file,
-                element=element,
-                value=f"{ends[0].label}, {ends[1].label}",
-                cure="name frames on two bodies that move against each other",
-            )
-        return FrameSpring(self.name, ends[0], ends[1], self.stiffness, self.preload, self.length_max)
+        first, second = resolve_pair(model, self.frames, "ends", file=file, element=element)
+        return FrameSpring(self.name, first, second, self.stiffness, self.preload, self.length_max)
 
 
 SpringSpec = JointSpringSpec | FrameSpringSpec

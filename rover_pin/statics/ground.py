@@ -16,7 +16,7 @@ from rover_pin.statics.problem import THOROUGH, Integers, Problem, State
 from rover_pin.statics.relax import FAR, Rest, relax
 from rover_pin.statics.stance import Status
 from rover_pin.statics.start import level_start
-from rover_pin.statics.verdict import way_out
+from rover_pin.statics.verdict import free_motions, steadiness, way_out
 
 if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
@@ -109,7 +109,11 @@ def let_go(
     if footing.status is not Status.SETTLED:
         return footing
     state = problem.state(footing.z, terrain, window=1e-5)
-    out = way_out(problem, state, share_loads(problem, state), terrain)
+    loads = share_loads(problem, state)
+    motions = free_motions(state, loads, problem)
+    if not motions.shape[1]:
+        return footing
+    out = way_out(problem, motions, steadiness(problem, state, loads, terrain, motions))
     if out is None:
         return footing
     return _come_to_rest(problem, footing.z + PUSH * out, terrain, window, lost, far)

@@ -81,7 +81,7 @@ def _judge(
     if motions.shape[1]:
         stiffness = steadiness(problem, state, loads, terrain, motions)
         undetermined = undetermined_joints(problem, motions, stiffness)
-        out = way_out(problem, state, loads, terrain)
+        out = way_out(problem, motions, stiffness)
         if out is not None:
             return _topple(problem, z, terrain, out), undetermined
     hit = link_in_ground(problem, problem.locate(z), terrain)

@@ -83,12 +83,15 @@ def steadiness(problem: Problem, state: State, loads: Loads, terrain: Terrain, m
     return np.array(solved, dtype=np.float64)
 
 
-def way_out(problem: Problem, state: State, loads: Loads, terrain: Terrain) -> Array | None:
-    """(n,) the free motion along which a stance would leave by itself, or None where it stays."""
-    motions = free_motions(state, loads, problem)
-    if not motions.shape[1]:
-        return None
-    values, vectors = np.linalg.eig(steadiness(problem, state, loads, terrain, motions))
+def way_out(problem: Problem, motions: Array, stiffness: Array) -> Array | None:
+    """(n,) the free motion along which a stance would leave by itself, or None where it stays.
+
+    Args:
+        problem: the rover.
+        motions: (n, d) of `free_motions`, d > 0.
+        stiffness: (d, d) of `steadiness`.
+    """
+    values, vectors = np.linalg.eig(stiffness)
     worst = int(np.argmin(values.real))
     if values[worst].real >= UNSTEADY:
         return None
