@@ -123,6 +123,13 @@ def machine_of(rover: Rover) -> Machine:
     )
 
 
+def pick(machine: Machine, which: Integers | slice) -> Machine:
+    """Some designs of a machine, in the order of `which`."""
+    arrays: dict[str, Any] = machine._asdict()
+    varied = {name: array[which] for name, array in arrays.items() if array.dtype == np.float64}
+    return machine._replace(**varied)
+
+
 def outline_of(joints: Integers, points: Array) -> tuple[Integers, Array]:
     """The corners of the boxes, along each joint's axes, that hold its points.
 

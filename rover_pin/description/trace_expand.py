@@ -33,6 +33,8 @@ def trace_expansion(recipe: Recipe, names: Sequence[str]) -> TracedText:
     """
     trace = Trace(tuple(names))
     arguments = {name: written(value) for name, value in recipe.parameters.items()}
+    if not names:
+        raise UntraceableError("no parameter varies", element="parameters")
     for name in names:
         if name not in arguments:
             raise UntraceableError("no parameter of that name", element=f"parameter {name}")

@@ -33,9 +33,11 @@ def traced_symbols(symbols: Mapping[str, Any]) -> dict[str, Any]:
     for name, value in symbols.items():
         if not callable(value):
             continue
-        if value is getattr(math, name, None):
+        of_math: Any = getattr(math, name, None)
+        builtin: Any = getattr(builtins, name, None)
+        if value is of_math:
             own[name] = _of_math(name, value)
-        elif value is getattr(builtins, name, None):
+        elif value is builtin:
             if name in ("min", "max"):
                 own[name] = _extreme(name, value)
             elif name == "float":
