@@ -69,7 +69,7 @@ def outline(
             continue
         for shape in link.shapes:
             seat = walked.seats[name]
-            place = behind(seat.place, origin_of(sheet, sheet.row(shape.xyz), sheet.row(shape.rpy)))
+            place = behind(seat.place, origin_of(sheet, shape.xyz, shape.rpy))
             corners = corners_around(shape.kind, sheet.row(shape.size))
             joints += [seat.joint] * corners.shape[1]
             points += [moved(place, corners[:, i]) for i in range(corners.shape[1])]

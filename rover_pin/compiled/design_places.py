@@ -9,17 +9,20 @@ import math
 
 import numpy as np
 
-from rover_pin.compiled.design_rows import Sheet
+from rover_pin.compiled.design_rows import Row, Sheet
+from rover_pin.description.trace import Ref
 from rover_pin.numerics import Array
 
 Place = tuple[Array, Array]
 
 HERE: Place = (np.eye(3)[None], np.zeros((1, 3)))
-"""No turn, no way."""
+"""No turn, no way; that very array is known by whoever multiplies, as long as no parameter decides on it."""
 
 
 def turned(rotation: Array, vector: Array) -> Array:
     """(n, 3) R v."""
+    if rotation is HERE[0]:
+        return vector
     result: Array = (
         rotation[:, :, 0] * vector[:, 0:1]
         + rotation[:, :, 1] * vector[:, 1:2]
@@ -30,6 +33,8 @@ def turned(rotation: Array, vector: Array) -> Array:
 
 def product(first: Array, second: Array) -> Array:
     """(n, 3, 3) R1 R2."""
+    if first is HERE[0] or second is HERE[0]:
+        return second if first is HERE[0] else first
     result: Array = (
         first[:, :, 0:1] * second[:, 0:1, :]
         + first[:, :, 1:2] * second[:, 1:2, :]
@@ -49,11 +54,11 @@ def behind(place: Place, next_place: Place) -> Place:
     return product(place[0], next_place[0]), moved(place, next_place[1])
 
 
-def origin_of(sheet: Sheet, xyz: Array, rpy: Array) -> Place:
+def origin_of(sheet: Sheet, xyz: Row, rpy: Row) -> Place:
     """The place of a URDF's `<origin>`, R = Rz(yaw) Ry(pitch) Rx(roll), by a quaternion as urdfdom goes."""
-    half = rpy / 2.0 + 0.0  # without -0.0, no turn is the unit matrix bit for bit
-    if not half.any():
-        return HERE[0], xyz
+    if not any(isinstance(entry, Ref) or entry != 0.0 for entry in rpy):
+        return HERE[0], sheet.row(xyz)
+    half = sheet.row(rpy) / 2.0
     (sr, sp, sy), (cr, cp, cy) = (
         [sheet.each(function, half[:, i]) for i in range(3)] for function in (math.sin, math.cos)
     )
@@ -62,7 +67,7 @@ def origin_of(sheet: Sheet, xyz: Array, rpy: Array) -> Place:
         sr * cp * cy - cr * sp * sy,
         cr * sp * cy + sr * cp * sy,
         cr * cp * sy - sr * sp * cy,
-    ), xyz
+    ), sheet.row(xyz)
 
 
 def about(sheet: Sheet, axis: Array, angle: Array) -> Array:

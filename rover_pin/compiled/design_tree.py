@@ -69,7 +69,7 @@ def walk_tree(plan: Plan, sheet: Sheet) -> Walked:
     held: dict[str, Array] = {}
     for branch in plan.branches:
         above = seats[branch.parent]
-        place = behind(above.place, origin_of(sheet, sheet.row(branch.xyz), sheet.row(branch.rpy)))
+        place = behind(above.place, origin_of(sheet, branch.xyz, branch.rpy))
         if branch.axis is None:
             seats[branch.child] = Seat(above.joint, place)
             continue

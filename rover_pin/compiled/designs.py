@@ -55,7 +55,7 @@ class Designs:
                 NOMINAL,
                 "the nominal design",
             )
-        except UntraceableError as error:
+        except InputError as error:
             self.refusal = str(error)
 
     def machines(self, values: Mapping[str, ArrayLike]) -> Made:

@@ -100,12 +100,11 @@ class _Guarding(ast.NodeTransformer):
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
         self.generic_visit(node)
+        if isinstance(node.func, ast.Name) and node.func.id == "float":
+            return node  # reads the number that a text is
         if isinstance(node.func, ast.Attribute):
             node.func.value = _whole(node.func.value)
-        node.args = [
-            ast.Starred(_whole(part.value), part.ctx) if isinstance(part, ast.Starred) else _whole(part)
-            for part in node.args
-        ]
+        node.args = [part if isinstance(part, ast.Starred) else _whole(part) for part in node.args]
         for keyword in node.keywords:
             keyword.value = _whole(keyword.value)
         return node
@@ -115,6 +114,11 @@ class _Guarding(ast.NodeTransformer):
         node.value = _whole(node.value)
         if not isinstance(node.slice, ast.Slice):
             node.slice = _whole(node.slice)
+        return node
+
+    def visit_Starred(self, node: ast.Starred) -> ast.AST:
+        self.generic_visit(node)
+        node.value = _whole(node.value)
         return node
 
     def visit_comprehension(self, node: ast.comprehension) -> ast.AST:

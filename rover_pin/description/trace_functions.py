@@ -23,11 +23,14 @@ _BLIND = ("isinstance", "issubclass", "type", "vars", "complex", "divmod")
 Function = Callable[..., Any]
 
 
-def traced_symbols(symbols: Mapping[str, Any]) -> dict[str, Any]:
+def traced_symbols(
+    symbols: Mapping[str, Any], number: Callable[[str], Traced | None] = lambda text: None
+) -> dict[str, Any]:
     """The same names, with functions in place that keep the trace.
 
     Args:
         symbols: names -> values, of xacro's global symbols or of one of their name spaces.
+        number: the traced number that a text is, if it is one.
     """
     own: dict[str, Any] = dict(symbols)
     for name, value in symbols.items():
@@ -41,7 +44,7 @@ def traced_symbols(symbols: Mapping[str, Any]) -> dict[str, Any]:
             if name in ("min", "max"):
                 own[name] = _extreme(name, value)
             elif name == "float":
-                own[name] = _float
+                own[name] = _float(number)
             elif name == "int":
                 own[name] = _int
             elif name in _BLIND:
@@ -104,8 +107,12 @@ def _extreme(name: str, function: Function) -> Function:
     return call
 
 
-def _float(value: Any = 0.0) -> Any:
-    return value.trace.apply("float", float, value) if isinstance(value, Traced) else float(value)
+def _float(number: Callable[[str], Traced | None]) -> Function:
+    def call(value: Any = 0.0) -> Any:
+        found = number(value) if isinstance(value, str) else value
+        return found.trace.apply("float", float, found) if isinstance(found, Traced) else float(value)
+
+    return call
 
 
 def _int(value: Any = 0, *base: Any) -> Any:
