@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rover_pin.compiled.answers import COMPILED_MEASURES, Answers, answers_of, blank
+from rover_pin.compiled.bounds import SHARES
 from rover_pin.compiled.design_machine import Made
 from rover_pin.compiled.designs import Designs
-from rover_pin.compiled.ground import MOST_REACHES, GroundArrays, ground_of
+from rover_pin.compiled.ground import MOST_SIZES, GroundArrays, ground_of
 from rover_pin.compiled.groups import Groups, as_loaded, filled, outline_radii, varied
 from rover_pin.compiled.kernel import Out, settle_all
 from rover_pin.compiled.machine import Machine, machine_of
@@ -26,9 +27,6 @@ from rover_pin.terrain.surface import CALLABLE
 
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
-
-HOVER = 1.25
-"""Sizes of shapes that the ground's bounds are for, over their own: one that hovers is as one grown."""
 
 MOST_MACHINES = 2048
 """Machines that are made ready at a time: some kilobytes each."""
@@ -214,7 +212,7 @@ class Batch:
 
     @cached_property
     def _reaches(self) -> tuple[float, ...]:
-        return (*(HOVER * size for size in self._sizes), self._outline_reach)
+        return (*(share * size for size in self._sizes for share in SHARES), self._outline_reach)
 
 
 def _name(posture: Posture) -> object:
@@ -243,8 +241,8 @@ def _refusal(rover: Rover, terrain: Terrain) -> str:
         return "nothing of this robot touches the ground"
     if rover.tracks:
         return "it has tracks"
-    if len({shape.ring + shape.tread for shape in rover.shapes}) >= MOST_REACHES:
-        return f"its shapes have more than {MOST_REACHES - 1} sizes"
+    if len({shape.ring + shape.tread for shape in rover.shapes}) > MOST_SIZES:
+        return f"its shapes have more than {MOST_SIZES} sizes"
     xmin, xmax, ymin, ymax = terrain.extent
     if min(xmax - xmin, ymax - ymin) < rover.wheel_span:
         return "the map is smaller than the rover"

@@ -20,6 +20,15 @@ Tiles = NDArray[np.float32]
 
 MOST_TILES = 4_000_000
 
+RINGS = 4
+"""Reaches of every size of shape: the ground's hollows near a contact count more than those farther off."""
+
+SHARES = (0.35, 0.7, 1.1, 1.6)
+"""Those reaches, over the shape's size."""
+
+SURE = 0.98
+"""Share of the skin's curvature that counts."""
+
 HEIGHT, HOLLOW, STEEP = range(3)
 """m; 1/m, the largest second derivative in any direction; the largest slope."""
 
@@ -33,8 +42,8 @@ def tiles_of(c: Array, spacing: float, reaches: tuple[float, ...]) -> tuple[Tile
         reaches: m.
 
     Returns:
-        (reaches, rows, columns, 3) float32 of HEIGHT, HOLLOW and STEEP, rounded upwards; the first tile's corner half a spacing before
-        the first node; the tiles' side [m].
+        (reaches, rows, columns, 3) float32 of HEIGHT, HOLLOW and STEEP, rounded upwards, the first tile's
+        corner half a spacing before the first node; and the tiles' side [m].
     """
     fine = _of_cells(c, spacing)
     rows, columns = fine[0].shape
@@ -61,7 +70,9 @@ def _of_cells(c: Array, spacing: float) -> tuple[Array, Array, Array]:
     along, across = np.abs(np.diff(c, axis=1)), np.abs(np.diff(c, axis=0))
     dx = _of_three(np.maximum(along[:, 1:], along[:, :-1]), 0)
     dy = _of_three(np.maximum(across[1:], across[:-1]), 1)
-    return height, k * k * (np.maximum(xx, yy) + xy), k * np.hypot(dx, dy)
+    half = 0.5 * (xx - yy)
+    hollow = 0.5 * (xx + yy) + np.sqrt(half * half + xy * xy)  # grows with xx, yy and |xy|
+    return height, k * k * hollow, k * np.hypot(dx, dy)
 
 
 def _of_three(values: Array, axis: int) -> Array:
@@ -99,38 +110,54 @@ def tile(ground: Any, tiles: Tiles, x: float, y: float) -> tuple[int, int]:
 
 
 @inlined
-def touches_once(
-    ground: Any, tiles: Tiles, r: int, cx: float, cy: float, az: float, ring: float, tread: float, gap: float
-) -> bool:
-    """Whether a ring-shaped skin can face the ground in one place only, so that a contact found is the least.
+def sure_within(
+    ground: Any, tiles: Tiles, r: int, x: float, y: float, off: float, az: float, ring: float, tread: float,
+    gap: float,
+) -> float:  # fmt: skip
+    """How far around a contact the skin is known to come no nearer to the ground; infinite where everywhere.
 
     Skin points whose slope is at most the ground's greatest slope tan(beta) lie within beta of straight down;
-    there the skin's principal curvatures are at least 1 / (ring / cos(alpha + beta) + tread), alpha being the
-    axis's inclination, and so are its second derivatives as a function over the plane. Where the ground's are
-    less, two places with equal slopes would need a displacement d with d'H d both less and more than
-    |d|^2 / that radius. Beyond those skin points the skin rises more steeply than the ground. A skin that
-    hovers is as one grown by its gap.
+    there the skin's principal curvatures are at least 1 / R with R = ring / cos(alpha + beta) + tread, alpha
+    being the axis's inclination, and so are its second derivatives as a function over the plane. Over a
+    segment of length l from the contact, along which the ground's second derivative is at most k(r) at
+    distance r, the skin rises above the ground by at least l^2 / 2 R less the integral of (l - r) k(r). Beyond
+    those skin points it rises more steeply than the ground. A skin that hovers is as one grown by its gap.
 
     Args:
         ground: the surface's record.
         tiles: its bounds.
-        r: which reach.
-        cx: centre, m.
-        cy: centre, m.
+        r: the first of the shape's RINGS reaches.
+        x: of the contact, m.
+        y: of the contact, m.
+        off: horizontal distance from the contact to the shape's centre, m.
         az: z component of the unit axis.
         ring: ring's radius, m.
         tread: ball's radius, m.
         gap: of the contact found, m.
     """
     grown = tread + max(gap, 0.0)
-    if ground.bounded == 0 or ring + grown > ground.reaches[r]:
-        return False
-    i, j = tile(ground, tiles, cx, cy)
-    slope, hollow = tiles[r, i, j, STEEP], tiles[r, i, j, HOLLOW]
-    if ring == 0.0:
-        return hollow * grown < 0.98
+    longest = off + ring + grown
+    last = r + RINGS - 1
+    if ground.bounded == 0 or longest > ground.reaches[last]:
+        return 0.0
+    i, j = tile(ground, tiles, x, y)
+    slope = 1.25 * tiles[last, i, j, STEEP] + 0.05
     level = math.sqrt(max(1.0 - az * az, 0.0))
-    cosine = (level - abs(az) * slope) / math.sqrt(1.0 + slope * slope)
+    cosine = (level - abs(az) * slope) / math.sqrt(1.0 + slope * slope) if ring > 0.0 else 1.0
     if cosine < 0.1:
-        return False
-    return hollow * (ring / cosine + grown) < 0.98
+        return 0.0
+    stiff = SURE / (ring / cosine + grown)
+    if tiles[last, i, j, HOLLOW] < stiff:
+        return math.inf
+    # by rings: k(r) is constant between reaches, and what is left over is least at one of them
+    before, slant, rise = 0.0, 0.0, 0.0
+    for k in range(r, r + RINGS):
+        reach = min(ground.reaches[k], longest)
+        wide = reach - before
+        rate = stiff - tiles[k, i, j, HOLLOW]
+        rise += (slant + 0.5 * rate * wide) * wide
+        slant += rate * wide
+        if rise <= 0.0:
+            return before
+        before = reach
+    return math.inf

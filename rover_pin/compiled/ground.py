@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_pin.compiled.bounds import HEIGHT, STEEP, Tiles, tiles_of
+from rover_pin.compiled.bounds import HEIGHT, RINGS, STEEP, Tiles, tiles_of
 from rover_pin.numerics import Array
 from rover_pin.terrain import Terrain
 from rover_pin.terrain.surface import PLANE, SMOOTH
@@ -19,7 +19,10 @@ Ground = Any
 GroundArrays = tuple[NDArray[np.void], Array, Array, Tiles]
 """(1,) record, parameters, table and tiles."""
 
-MOST_REACHES = 8
+MOST_SIZES = 8
+"""Sizes of shapes that a record has reaches for."""
+
+MOST_REACHES = RINGS * MOST_SIZES + 1
 
 GROUND = np.dtype(
     [
@@ -30,7 +33,7 @@ GROUND = np.dtype(
         ("side", np.float64),  # m, of a tile
         ("corner", np.float64, 2),  # m, the first tile's
         ("n_reaches", np.int64),
-        ("reaches", np.float64, MOST_REACHES),  # m, ascending but for the last, which is the outlines'
+        ("reaches", np.float64, MOST_REACHES),  # m: RINGS for each size of shape, then the outlines'
     ],
     align=True,
 )

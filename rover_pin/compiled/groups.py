@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rover_pin.compiled.answers import blank
+from rover_pin.compiled.bounds import RINGS
 from rover_pin.compiled.ground import GroundArrays
 from rover_pin.compiled.kernel import settle_all
 from rover_pin.compiled.machine import Machine
@@ -108,7 +109,7 @@ def _ready(made: Pose, template: Template, sizes: Array, reach: float, *, same: 
     template.support(records)
     shapes = int(records["n_shapes"][0])
     whole = records["rings"][0, :shapes] + records["treads"][0, :shapes]
-    records["reach_of"][:, :shapes] = np.searchsorted(sizes, whole)
+    records["reach_of"][:, :shapes] = RINGS * np.searchsorted(sizes, whole)
     corners = int(records["n_outline"][0])
     away = outline_radii(records["outline_bodies"][0, :corners], records["outline"][:, :corners])
     records["outline_fits"] = np.all(away <= reach, axis=1)

@@ -17,9 +17,6 @@ ITERATIONS = 12
 STEP = 1e-7
 """Share of the span, or rad: Newton squares its error, so the step that is this small is the last."""
 
-NEXT = 1e-9
-"""The same of the step that would come next, by how much the last two fell: it need not be taken."""
-
 REACH = 0.4
 """Farthest landing, as a share of the wheels' span and in rad, as on the plain path."""
 
@@ -68,12 +65,6 @@ def take_step(p: Posed, w: Work, z: Array) -> tuple[float, float]:
     return largest, moved
 
 
-@inlined
-def is_last(largest: float, before: float) -> bool:
-    """Whether a step was the last that is needed, given the one before it."""
-    return largest < STEP or (largest < before and largest * (largest / before) * (largest / before) < NEXT)
-
-
 @formula
 def land(
     p: Posed, ground: Ground, params: Array, table: Array, w: Work, z: Array, x: float, y: float, cy: float,
@@ -97,9 +88,7 @@ def land(
         whether it landed, and the sign of the determinant (0 where supports do not determine the pose).
     """
     determinate = p.n_active + p.n_held_loops == p.n_free
-    largest = math.inf
     for i in range(ITERATIONS):
-        before = largest
         if determinate:
             walk(p, z, x, y, cy, sy, w.rot, w.org)
             for k in range(p.n_active):
@@ -116,6 +105,6 @@ def land(
         largest, moved = take_step(p, w, z)
         if not moved <= REACH:
             return False, 0.0
-        if is_last(largest, before):
+        if largest < STEP:
             return True, sign
     return False, math.nan

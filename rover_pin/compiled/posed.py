@@ -47,7 +47,7 @@ def posed_dtype(size: int) -> np.dtype[np.void]:
             ("axes", real, (size, 3)),
             ("rings", real, size),  # m
             ("treads", real, size),  # m
-            ("reach_of", whole, size),  # which reach of the ground's bounds is the shape's
+            ("reach_of", whole, size),  # the first of the shape's reaches in the ground's bounds
             ("stop_bodies", whole, 2 * size),  # the joint of each stop
             ("stop_signs", real, 2 * size),  # 1 upper, -1 lower
             ("stop_limits", real, 2 * size),
@@ -171,19 +171,19 @@ def rotations(placed: Sequence[Placed], joints: Integers, local: Array) -> Array
 
 
 def lumps(machine: Machine, placed: Sequence[Placed], count: int) -> tuple[Array, Array]:
-    """Masses (g, b) and first moments (g, b, 3) of the bodies."""
-    masses = np.zeros((len(machine.masses), count))
-    moments = np.zeros((len(machine.masses), count, 3))
+    """Masses (g, b) and first moments (g, b, 3) of the bodies; one row where every group's are the same."""
+    groups = max(len(machine.masses), *(len(each.origin) for each in placed))
+    masses, moments = np.zeros((groups, count)), np.zeros((groups, count, 3))
     for joint in range(1, len(placed)):
         body, rotation, origin = placed[joint]
-        mass = machine.masses[:, joint]
+        mass, moment = machine.masses[:, joint], machine.moments[:, joint]
         masses[:, body] += mass
-        moments[:, body] += _turned(rotation, machine.moments[:, joint]) + mass[:, None] * origin
+        moments[:, body] += _turned(rotation, moment) + mass[:, None] * origin
     return masses, moments
 
 
 def _turned(rotation: Array, vector: Array) -> Array:
-    """Rows R v of (g, 3, 3) and (g, 3), summed in a fixed order: a row's bits hang on that row alone."""
+    """Rows R v of (g or 1, 3, 3) and (g or 1, 3), summed in a fixed order: bits hang on a row alone."""
     result: Array = (
         rotation[:, :, 0] * vector[:, 0, None]
         + rotation[:, :, 1] * vector[:, 1, None]

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 
-from rover_pin.compiled.bounds import Tiles, touches_once
+from rover_pin.compiled.bounds import HEIGHT, RINGS, Tiles, sure_within, tile
 from rover_pin.compiled.elastic import is_steady
 from rover_pin.compiled.ground import Ground
-from rover_pin.compiled.land import ITERATIONS, REACH, is_last, land, newton_step, take_step
+from rover_pin.compiled.land import ITERATIONS, REACH, STEP, land, newton_step, take_step
 from rover_pin.compiled.posed import Posed
 from rover_pin.compiled.residuals import recompute
 from rover_pin.compiled.search import Search
 from rover_pin.compiled.share import PENETRATION, TOUCHING, share
 from rover_pin.compiled.state import follow_contact, search_contact, start_contacts, tilt_cosine
+from rover_pin.compiled.sweep import DEEPER, UNDECIDED, sweep
 from rover_pin.compiled.underside import CLEAR, IN_GROUND, look_below
 from rover_pin.compiled.walk import place, turn, walk
 from rover_pin.compiled.work import Work
@@ -36,7 +37,7 @@ CLOSED = 1e-9
 FOLLOWED = 8
 """Steps to follow a contact at the landing."""
 
-MOVED = 1e-7
+MOVED = 3e-6
 """m: a followed contact that moves less than this is exact after the step, which squares its error."""
 
 
@@ -73,15 +74,15 @@ def settle_one(
     stands = False
     for _ in range(REPEATS):
         if ground.kind == LINEAR:
-            landed, sign, largest = False, 0.0, math.inf
+            landed, sign = False, 0.0
             for _ in range(ITERATIONS if p.n_active + p.n_held_loops == p.n_free else 0):
                 walk(p, z, x, y, cy, sy, w.rot, w.org)
                 for k in range(p.n_active):
                     if p.active[k] < p.n_shapes:
                         search_contact(p, ground, params, table, search, w, p.active[k], 0.0)
-                sign, before = newton_step(p, w, z, cy, sy), largest
+                sign = newton_step(p, w, z, cy, sy)
                 largest, moved = take_step(p, w, z)
-                landed = sign != 0.0 and moved <= REACH and is_last(largest, before)
+                landed = sign != 0.0 and moved <= REACH and largest < STEP
                 if landed or sign == 0.0 or not moved <= REACH:
                     break
         else:
@@ -100,8 +101,8 @@ def settle_one(
         for k in range(p.n_active):
             if p.active[k] < p.n_shapes:
                 open_gap = max(open_gap, abs(w.slack[p.active[k]]))
-        stands = lowest >= PENETRATION and open_gap < TOUCHING
-        if stands and open_gap < CLOSED:
+        stands = lowest >= PENETRATION and open_gap < CLOSED
+        if stands:
             break
     if not stands or tilt_cosine(z) < UPRIGHT:
         return OPEN, -1, 0.0, 0
@@ -133,18 +134,37 @@ def is_loose(
 
 @formula
 def is_proven(p: Posed, ground: Ground, params: Array, table: Array, tiles: Tiles, w: Work, i: int) -> bool:
-    """Follow the contact of shape i at the landing to its end; whether the ground's bounds prove it the least."""
+    """Follow the contact of shape i at the landing to its end; whether it is known to be the least.
+
+    By the ground's bounds, else by a look along the ring, which may find a deeper one.
+    """
     if ground.kind == LINEAR:
         return False
+    size = math.inf
     for _ in range(FOLLOWED):
-        if follow_contact(p, ground, params, table, w, i) < MOVED:
-            b = p.carriers[i]
-            cx, cy, _ = place(w.rot, w.org, b, p.centers[i, 0], p.centers[i, 1], p.centers[i, 2])
-            _, _, az = turn(w.rot, b, p.axes[i, 0], p.axes[i, 1], p.axes[i, 2])
-            return touches_once(
-                ground, tiles, p.reach_of[i], cx, cy, az, p.rings[i], p.treads[i], w.contacts[i, 0]
-            )
-    return False
+        size = follow_contact(p, ground, params, table, w, i)
+        if size < MOVED:
+            break
+    if not size < MOVED:
+        return False
+    b, c = p.carriers[i], w.contacts[i]
+    cx, cy, cz = place(w.rot, w.org, b, p.centers[i, 0], p.centers[i, 1], p.centers[i, 2])
+    ax, ay, az = turn(w.rot, b, p.axes[i, 0], p.axes[i, 1], p.axes[i, 2])
+    off = math.sqrt((c[1] - cx) ** 2 + (c[2] - cy) ** 2)
+    r = p.reach_of[i]
+    sure = sure_within(ground, tiles, r, c[1], c[2], off, az, p.rings[i], p.treads[i], c[0])
+    if sure == math.inf:
+        return True
+    if p.rings[i] == 0.0 or ground.bounded == 0 or off + p.rings[i] > ground.reaches[r + RINGS - 1]:
+        return False
+    row, column = tile(ground, tiles, c[1], c[2])
+    top = tiles[r + RINGS - 1, row, column, HEIGHT]
+    found = sweep(
+        ground, params, table, cx, cy, cz, ax, ay, az, p.rings[i], p.treads[i], top, sure, c
+    )  # fmt: skip
+    if found == DEEPER:
+        w.places[i, 0], w.places[i, 1] = c[1], c[2]
+    return found != UNDECIDED
 
 
 @formula
