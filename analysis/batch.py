@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.util
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rover_pin.analysis.cases import Cases
 from rover_pin.analysis.rows import EDGES, PLAIN, RESIDUALS, Columns, Layout, coded
-from rover_pin.analysis.vocabulary import Words
+from rover_pin.analysis.vocabulary import Words, tight
 from rover_pin.analysis.words import posture
 from rover_pin.statics.stance import Status
 
@@ -40,7 +40,7 @@ class CompiledRows:
     @classmethod
     def of(cls, job: Job) -> CompiledRows | None:
         """The compiled path, where it serves this rover, this terrain and every measure asked for."""
-        if importlib.util.find_spec("rover_pin.compiled") is None:  # MERGE: remove
+        if "rover_pin.compiled" not in sys.modules:  # MERGE: remove
             return None
         from rover_pin.compiled import COMPILED_MEASURES, Batch
 
@@ -81,7 +81,7 @@ def as_columns(answers: Answers, layout: Layout) -> Columns:
         names, table, limiting = answers.labelled(name)
         out |= coded(f"{name}_limiting", Words.picked(limiting + 1, ["", *names]))
         said = ~np.isnan(table).all(axis=0)
-        out[EDGES + name] = np.array(names, dtype=np.str_)[said]
+        out[EDGES + name] = tight(np.array(names, dtype=np.str_)[said])
         out[f"{name}_edge"] = table if said.all() else table[:, said]
     return out
 

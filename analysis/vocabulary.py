@@ -36,7 +36,7 @@ class Words:
         sorted_names, place = np.unique(names[said], return_inverse=True)
         new = np.zeros(len(known), dtype=np.int64)
         new[said] = place
-        return cls(_small(new[code], len(sorted_names)), sorted_names)
+        return cls(_small(new[code], len(sorted_names)), tight(sorted_names))
 
     def spelled(self) -> NDArray[np.str_]:
         """(n,) the words."""
@@ -57,6 +57,11 @@ def joined_words(parts: Sequence[Words]) -> Words:
     known = np.unique(np.concatenate([part.known for part in parts]))
     codes = [np.searchsorted(known, part.known)[part.code] for part in parts]
     return Words(_small(np.concatenate(codes), len(known)), known)
+
+
+def tight(known: NDArray[np.str_]) -> NDArray[np.str_]:
+    """The same words in an array no wider than the longest of them."""
+    return np.array(known.tolist(), dtype=np.str_)
 
 
 def longest(known: NDArray[np.str_]) -> int:
