@@ -7,7 +7,10 @@ from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
+
+from rover_pin.analysis import Study
 
 SETTLED, GROUNDED, OFF_MAP, OPEN = 0, 1, 2, 255
 EDGES = {"tip": ["bl-br", "br-fr", "fl-bl", "fr-fl", "never-said"], "loads": ["bl", "br", "fl", "fr"]}
@@ -91,3 +94,14 @@ def install(*, left: bool) -> None:
     sys.modules["rover_pin.compiled"] = stand_in()
     of: Any = classmethod(lambda cls, job: cls(job, DoubleBatch(job, left=left)))
     CompiledRows.of = of  # type: ignore[method-assign]
+
+
+def double_study(monkeypatch: pytest.MonkeyPatch, n: int, *, left: bool = False) -> Study:
+    """A study on the stand-in."""
+    from rover_pin.analysis.batch import CompiledRows
+
+    monkeypatch.setitem(sys.modules, "rover_pin.compiled", stand_in())
+    of: Any = classmethod(lambda cls, job: cls(job, DoubleBatch(job, left=left)))
+    monkeypatch.setattr(CompiledRows, "of", of)
+    vary = {"x": [-3, 3], "y": [-3, 3], "yaw_deg": [0, 360]}
+    return Study("rocker_bogie", {"slope": 3}, cases={"n": n}, vary=vary, measures=["tip", "loads"])

@@ -5,11 +5,10 @@ from __future__ import annotations
 import sys
 import time
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-from batch_double import GROUNDED, OFF_MAP, OPEN, SETTLED, DoubleAnswers, DoubleBatch, stand_in
+from batch_double import GROUNDED, OFF_MAP, OPEN, SETTLED, DoubleAnswers, DoubleBatch, double_study, stand_in
 
 from rover_pin.analysis import Study
 from rover_pin.analysis.batch import CompiledRows, as_columns
@@ -76,10 +75,7 @@ def test_a_row_takes_less_than_a_microsecond_or_two() -> None:
 
 @pytest.fixture
 def study(monkeypatch: pytest.MonkeyPatch) -> Study:
-    made = Study("rocker_bogie", {"slope": 3}, cases={"n": 150}, vary=VARY, measures=["tip", "loads"])
-    of: Any = classmethod(lambda cls, job: cls(job, DoubleBatch(job)))
-    monkeypatch.setattr(CompiledRows, "of", of)
-    return made
+    return double_study(monkeypatch, 150, left=True)
 
 
 def test_what_is_left_open_is_answered_plainly_and_counted(study: Study, tmp_path: Path) -> None:
