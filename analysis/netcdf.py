@@ -10,6 +10,7 @@ import h5netcdf
 import numpy as np
 
 from rover_pin.analysis.dataset import VARIED
+from rover_pin.analysis.patient import PatientFile
 from rover_pin.analysis.schema import CASE, Block, Schema, Variable
 from rover_pin.analysis.vocabulary import Words, longest
 
@@ -29,38 +30,58 @@ def write(
     Raises:
         OSError: the file cannot be written.
     """
-    widths = {each.width for each in form.variables if each.width}
+    with PatientFile(path) as disk:
+        with h5netcdf.File(disk, "w") as file:
+            _fill(file, disk, form, blocks, count, attributes)
+        disk.keep()
+
+
+def _fill(
+    file: Any,
+    disk: PatientFile,
+    form: Schema,
+    blocks: Iterable[Block],
+    count: int,
+    attributes: Mapping[str, Any],
+) -> None:
+    """Dimensions and names, then the blocks, then what is only known at the end."""
+    _name_dimensions(file, form, count)
+    for name, value in attributes.items():
+        file.attrs[name] = value
+    numbers = file.create_variable(CASE, (CASE,), "i8", chunks=(_rows(count),), **PACKED)
+    made = {each.name: _create(file, each, count) for each in form.variables}
+    first: dict[str, Any] = {}
+    varied = {each.name: 0 for each in form.variables if each.asked}
+    start = 0
+    for block in blocks:
+        stop = start + len(block.cases)
+        numbers[start:stop] = np.arange(start, stop)
+        for each in form.variables:
+            values = each.take(block)
+            stored = values.letters(each.width) if isinstance(values, Words) else values
+            _store(made[each.name], each, start, stop, stored)
+            if each.asked:
+                differs = stored != first.setdefault(each.name, stored[0])
+                varied[each.name] |= int(bool(differs.any()))
+        disk.check()
+        start = stop
+    for name, whether in varied.items():
+        made[name].attrs[VARIED] = whether
+
+
+def _name_dimensions(file: Any, form: Schema, count: int) -> None:
+    """The dimensions, each but the case with its names."""
     names = {dim: _letters(labels) for dim, labels in form.labels.items()}
+    widths = {each.width for each in form.variables if each.width}
     widths |= {letters.shape[1] for letters in names.values()}
-    with h5netcdf.File(path, "w") as file:
-        file.dimensions = {
-            CASE: count,
-            **{dim: len(labels) for dim, labels in form.labels.items()},
-            **{_letter_dim(width): width for width in sorted(widths)},
-        }
-        for name, value in attributes.items():
-            file.attrs[name] = value
-        for dim, letters in names.items():
-            made = file.create_variable(dim, (dim, _letter_dim(letters.shape[1])), "S1", data=letters)
-            made.attrs["_Encoding"] = "utf-8"
-        numbers = file.create_variable(CASE, (CASE,), "i8", chunks=(_rows(count),), **PACKED)
-        made = {each.name: _create(file, each, count) for each in form.variables}
-        first: dict[str, Any] = {}
-        varied = {each.name: 0 for each in form.variables if each.asked}
-        start = 0
-        for block in blocks:
-            stop = start + len(block.cases)
-            numbers[start:stop] = np.arange(start, stop)
-            for each in form.variables:
-                values = each.take(block)
-                stored = values.letters(each.width) if isinstance(values, Words) else values
-                _store(made[each.name], each, start, stop, stored)
-                if each.asked:
-                    differs = stored != first.setdefault(each.name, stored[0])
-                    varied[each.name] |= int(bool(differs.any()))
-            start = stop
-        for name, whether in varied.items():
-            made[name].attrs[VARIED] = whether
+    file.dimensions = {
+        CASE: count,
+        **{dim: len(labels) for dim, labels in form.labels.items()},
+        **{_letter_dim(width): width for width in sorted(widths)},
+    }
+    for dim, letters in names.items():
+        made = file.create_variable(dim, (dim, _letter_dim(letters.shape[1])), "S1", data=letters)
+        made.attrs["_Encoding"] = "utf-8"
 
 
 def _create(file: Any, each: Variable, count: int) -> Any:

@@ -121,7 +121,7 @@ class Parts:
         try:
             yield
         except OSError as error:
-            if error.errno not in _FULL and "errno = 28" not in str(error):
+            if error.errno not in _FULL:
                 raise
             cure = "what is finished is kept: make room and go on with --resume"
             raise StudyError("the disk is full", file=self.folder, cure=cure) from None

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import errno
+import gc
+import os
 import re
 import shutil
 from collections import namedtuple
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -17,6 +20,7 @@ from test_study_run import assert_same_bits, rough_study
 from rover_pin.analysis import Study, netcdf
 from rover_pin.analysis.disk import told
 from rover_pin.analysis.job import Chunk, Runner
+from rover_pin.analysis.patient import PatientFile
 from rover_pin.analysis.rows import Columns
 from rover_pin.errors import StudyError
 
@@ -92,6 +96,42 @@ def test_a_disk_that_fills_up_keeps_what_is_finished(tmp_path: Path, monkeypatch
     assert not out.exists()
     assert_same_bits(study.run(out=out, resume=True), rough_study(12).run())
     assert [entry.name for entry in tmp_path.iterdir()] == ["out.nc"]
+
+
+def test_a_disk_that_fills_up_under_hdf5_is_told_and_the_file_closed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out, room = tmp_path / "out.nc", 6_000_000
+    study = double_study(monkeypatch, 70_000)
+
+    def fills(descriptor: int, data: memoryview) -> int:
+        nonlocal room
+        if not room:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        written = os.write(descriptor, data[:room])
+        room -= written
+        return written
+
+    with monkeypatch.context() as patch:
+        patch.setattr("rover_pin.analysis.patient.os", SimpleNamespace(write=fills, fsync=os.fsync))
+        with pytest.raises(StudyError, match="the disk is full; what is finished is kept"):
+            study.run(out=out, chunk=35_000)
+    assert room == 0
+    gc.collect()  # what HDF5 still holds would complain here
+    names = [entry.name for entry in (tmp_path / "out.nc.parts").iterdir()]
+    assert sorted(names) == ["0000000000-0000035000.npz", "0000035000-0000070000.npz", "study.json"]
+    assert_same_bits(study.run(out=out, resume=True), study.run())
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a disk that is always full")
+def test_a_file_keeps_its_trouble_until_it_is_asked() -> None:
+    file = PatientFile(Path("/dev/full"))
+    file.check()
+    assert file.write(b"four") == 4
+    for ask in (file.check, file.keep):
+        with pytest.raises(OSError, match="No space left on device"):
+            ask()
+    file.close()
 
 
 def test_an_interrupt_while_the_result_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
