@@ -92,6 +92,9 @@ def _worst(data: xr.Dataset, measure: str, sign: float, count: int) -> tuple[int
         settled += len(there)
         values = np.concatenate([values, sign * block[there]])
         cases = np.concatenate([cases, start + there])
+        if len(values) > count:
+            near = values <= np.partition(values, count - 1)[count - 1]
+            values, cases = values[near], cases[near]
         order = np.argsort(values, kind="stable")[:count]
         values, cases = values[order], cases[order]
         start += len(block)

@@ -33,9 +33,10 @@ class Trial:
         return sum(values.nbytes for values in self.columns.values()) / count_of(self.columns)
 
     def chunk(self, count: int, workers: int) -> int:
-        """Cases that take about three quarters of a second; fewer where workers would stand idle."""
-        timely = math.ceil(CHUNK_SECONDS / max(self.seconds, 1e-9))
-        return max(1, min(timely, math.ceil(count / workers), LARGEST_CHUNK))
+        """Cases that take about three quarters of a second, or so many less that all workers end together."""
+        timely = min(math.ceil(CHUNK_SECONDS / max(self.seconds, 1e-9)), LARGEST_CHUNK)
+        rounds = math.ceil(count / (workers * timely))
+        return math.ceil(count / (workers * rounds))
 
 
 def trial(runner: Runner, count: int, chunk: int | None = None) -> Trial:

@@ -65,7 +65,11 @@ def study(
                 progress=progress,
             )
     except KeyboardInterrupt:
-        aside(f"interrupted; what is finished is kept in {path}.parts: go on with --resume")
+        kept = path.with_name(f"{path.name}.parts")
+        if kept.is_dir():
+            aside(f"interrupted; what is finished is kept in {kept}: go on with --resume")
+        else:
+            aside("interrupted before anything was finished")
         return INTERRUPTED
     seconds = time.perf_counter() - started
     if html is not None:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from batch_double import double_study
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -54,3 +55,22 @@ def test_ranks_are_those_of_a_sort(values: list[float], cut: int, data: st.DataO
     column = np.array(values)
     found = ranked(lambda: [block for block in (column[:cut], column[cut:]) if len(block)], ranks)
     assert found == np.sort(column)[ranks].tolist()
+
+
+@given(
+    values=st.lists(st.sampled_from([-np.inf, 0.0, 1.0, 2.0, np.nan]), min_size=1, max_size=30),
+    count=st.integers(1, 8),
+    better=st.sampled_from(["high", "low"]),
+)
+@settings(max_examples=60, deadline=None, derandomize=True)
+def test_of_equally_bad_cases_the_first_come_first(values: list[float], count: int, better: str) -> None:
+    words = [f"edge {i}" for i in range(len(values))]
+    variables = {"tip": ("case", values, {"better": better}), "tip_limiting": ("case", words)}
+    data = xr.Dataset(variables, coords={"case": np.arange(len(values))})
+    sign = 1.0 if better == "high" else -1.0
+    keys = {i: sign * value for i, value in enumerate(values) if not np.isnan(value)}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("rover_pin.analysis.summary.BLOCK", 4)
+        worst = spread(data, "tip", count).worst
+    assert [each.case for each in worst] == sorted(keys, key=lambda i: (keys[i], i))[:count]
+    assert [each.limiting for each in worst] == [f"edge {each.case}" for each in worst]

@@ -142,3 +142,17 @@ def test_bad_input_writes_nothing(
 def test_no_such_study_file(run: Any, tmp_path: Path) -> None:
     path = tmp_path / "none.yaml"
     assert run("study", path, "-o", tmp_path / "o.nc") == (2, "", f"error: {path}: no such file\n")
+
+
+def test_an_interrupt_before_anything_is_finished(
+    run: Any, spec: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from rover_pin.analysis.job import Runner
+
+    def interrupted(self: Runner) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Runner, "first", interrupted)
+    status, told, err = run("study", spec, "-o", tmp_path / "out.nc", "--engine", "serial")
+    assert (status, told, err) == (130, "", "interrupted before anything was finished\n")
+    assert [entry.name for entry in tmp_path.iterdir()] == ["small.yaml"]
