@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rover_pin.analysis.cases import Cases
-from rover_pin.analysis.rows import EDGES, PLAIN, RESIDUALS, Columns, Layout, coded
+from rover_pin.analysis.rows import EDGES, PLAIN, POSE, RESIDUALS, Columns, Layout, coded
 from rover_pin.analysis.vocabulary import Words, tight
 from rover_pin.analysis.words import posture
 from rover_pin.statics.stance import Status
@@ -69,11 +69,14 @@ class CompiledRows:
 
 def as_columns(answers: Answers, layout: Layout) -> Columns:
     """Answers in the form of `Rows.columns`; rows that are open say nothing yet."""
+    from rover_pin.compiled import SETTLED
+
     status, reason = _endings(answers)
     out: Columns = {**coded("status", status), **coded("reason", reason)}
     out[PLAIN] = np.zeros(len(answers.code), dtype=np.int8)
-    for name in ("z_m", "roll_rad", "pitch_rad", *RESIDUALS, "redundant"):
-        out[name] = np.asarray(getattr(answers, name), dtype=np.float64)
+    for name in (*POSE, *RESIDUALS):
+        out[name] = getattr(answers, name)
+    out["redundant"] = np.where(answers.code == SETTLED, answers.redundant, np.nan)
     for name in layout.margins:
         out[name] = answers.value[name]
     out |= {"load_n": answers.load_n, "joint_rad": answers.joint_rad}
@@ -98,8 +101,7 @@ def _endings(answers: Answers) -> tuple[Words, Words]:
     reasons: list[str] = [""]
     failed = np.flatnonzero(status > 1)
     if len(failed):
-        spelled = answers.words()[1]
-        told = Words.of([spelled[i] for i in failed])
+        told = Words.of(np.asarray(answers.words()[1])[failed])
         reasons += [str(reason) for reason in told.known]
         code[failed] = told.code.astype(np.int64) + 1
     return Words.picked(status, known), Words.picked(code, reasons)

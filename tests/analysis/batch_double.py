@@ -36,7 +36,7 @@ class DoubleAnswers(SimpleNamespace):
         self.z_m, self.roll_rad, self.pitch_rad = some(turn), some(turn / 2), some(turn / 3)
         self.joint_rad = some(turn[:, None] * np.arange(1.0, joints + 1))
         self.load_n = some(100.0 + turn[:, None] * np.arange(1.0, wheels + 1))
-        self.redundant = some(np.floor(3 * np.abs(turn)))
+        self.redundant = np.floor(3 * np.abs(turn)).astype(np.int64)
         self.equilibrium = some(1e-12 * np.abs(turn))
         self.gap_m = self.loop_m = self.complementarity = self.equilibrium
         self.value = {name: some(turn - k) for k, name in enumerate(measures)}
