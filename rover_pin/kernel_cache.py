@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-ROOMS = ("contact", "terrain", "statics")
+ROOMS = ("mechanism", "contact", "terrain", "statics", "stability", "stability/measures", "compiled")
 """Folders that hold formulas; one may be compiled into another."""
 
 
