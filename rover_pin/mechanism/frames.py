@@ -72,7 +72,9 @@ class BodyFrame:
 
     def jacobian(self, at: Kinematics) -> Array:
         """(6, nv) velocity of the origin, then angular velocity, world axes."""
-        return np.concatenate([at.point_jacobian(self.joint, self.origin(at)), at.angular_jacobian(self.joint)])
+        return np.concatenate(
+            [at.point_jacobian(self.joint, self.origin(at)), at.angular_jacobian(self.joint)]
+        )
 
 
 def resolve_pair(
