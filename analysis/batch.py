@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -17,9 +16,8 @@ from rover_pin.analysis.words import posture
 from rover_pin.statics.stance import Status
 
 if TYPE_CHECKING:
-    from rover_pin.compiled import Answers, Batch
-
     from rover_pin.analysis.job import Job
+    from rover_pin.compiled import Answers, Batch
 
 
 @dataclass(frozen=True)
@@ -40,8 +38,6 @@ class CompiledRows:
     @classmethod
     def of(cls, job: Job) -> CompiledRows | None:
         """The compiled path, where it serves this rover, this terrain and every measure asked for."""
-        if "rover_pin.compiled" not in sys.modules:  # MERGE: remove
-            return None
         from rover_pin.compiled import COMPILED_MEASURES, Batch
 
         if not set(job.layout.measures) <= set(COMPILED_MEASURES):
