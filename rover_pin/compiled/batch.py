@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rover_pin.compiled.answers import COMPILED_MEASURES, Answers, answers_of, blank
+from rover_pin.compiled.design_machine import Made
 from rover_pin.compiled.designs import Designs
 from rover_pin.compiled.ground import MOST_REACHES, GroundArrays, ground_of
-from rover_pin.compiled.groups import Groups, as_loaded, outline_radii, varied
+from rover_pin.compiled.groups import Groups, as_loaded, filled, outline_radii, varied
 from rover_pin.compiled.kernel import Out, settle_all
 from rover_pin.compiled.machine import Machine, machine_of
 from rover_pin.compiled.posed import Integers
 from rover_pin.compiled.search import contact_search
 from rover_pin.compiled.template import Posture, Template, template_of
+from rover_pin.description.trace import UntraceableError
 from rover_pin.errors import InputError, nearest
 from rover_pin.numerics import Array
 from rover_pin.terrain import Terrain
@@ -27,6 +29,15 @@ if TYPE_CHECKING:
 
 HOVER = 1.25
 """Sizes of shapes that the ground's bounds are for, over their own: one that hovers is as one grown."""
+
+MOST_MACHINES = 2048
+"""Machines that are made ready at a time: some kilobytes each."""
+
+BLOCK = 2.0
+"""m: squares of the map that are gone through one after the other."""
+
+BLOCK_WORTH = 500
+"""Cases below which their order is left alone."""
 
 ROOM = 1.5
 """Outlines that the ground's bounds are for, over that of the rover as loaded: designs may be larger."""
@@ -106,19 +117,21 @@ class Batch:
         joint_rad = np.full((len(x), len(self.rover.joints)), np.nan)
         which = np.zeros(len(x), dtype=np.int64) if posture is None else np.asarray(posture)
         links: tuple[str, ...] = ()
+        alone = bool(given[0] or given[1])
         for k, each in enumerate(postures if not self.refusal else ()):
-            mine = np.flatnonzero(which == k)
             template = self._template(each, tuple(given[0]), bool(given[1]))
-            if template is None or not len(mine):
+            if template is None:
                 continue
             links = tuple(template.problem.underside.links)
-            held, designs = ({name: v[mine] for name, v in part.items()} for part in given)
-            groups, index = self._groups(each, template, held, designs, len(mine))
-            part = self._settle(groups, index, x[mine], y[mine], yaw[mine])
-            joint_rad[mine] = groups.pose.joints(index, part.z)
-            for whole, some in zip(out, part, strict=True):
-                if len(whole):
-                    whole[mine] = some[:, :3] if some is part.z else some
+            cases = _near_each_other(np.flatnonzero(which == k), x, y)
+            for mine in _blocks(cases, MOST_MACHINES if alone else max(len(cases), 1)):
+                held, designs = ({name: v[mine] for name, v in part.items()} for part in given)
+                groups, index = self._groups(each, template, held, designs, len(mine))
+                part = self._settle(groups, index, x[mine], y[mine], yaw[mine])
+                joint_rad[mine] = groups.pose.joints(index, part.z)
+                for whole, some in zip(out, part, strict=True):
+                    if len(whole):
+                        whole[mine] = some[:, :3] if some is part.z else some
         return answers_of(self.rover, self.measures, out, joint_rad, links)
 
     def _settle(self, groups: Groups, index: Integers, x: Array, y: Array, yaw: Array) -> Out:
@@ -154,7 +167,11 @@ class Batch:
             return self._single[key], np.zeros(count, dtype=np.int64)
         machine, valid = self._machine, np.ones(count, dtype=np.bool_)
         if parameters:
-            machine, valid = self._made(parameters, count)
+            made = self._made(parameters)
+            if made is None:
+                valid[:] = False
+            else:
+                machine, valid = filled(made.machine, made.valid, self._machine), made.valid
         values = np.tile(template.values, (count, 1))
         for name, column in joints.items():
             values[:, self.rover.column[name]] = column
@@ -162,15 +179,16 @@ class Batch:
         groups.pose.records["usable"] &= valid
         return groups, np.arange(count)
 
-    def _made(self, parameters: Mapping[str, Array], count: int) -> tuple[Machine, Array]:
-        """Designs, and which of them can be had without their files."""
+    def _made(self, parameters: Mapping[str, Array]) -> Made | None:
+        """Designs made without their files, or None where they cannot be."""
         names = tuple(parameters)
         if names not in self._designs:
             self._designs[names] = Designs(self.rover, names)
         designs = self._designs[names]
-        if designs.refusal:
-            return self._machine, np.zeros(count, dtype=np.bool_)
-        return designs.machines(parameters)
+        try:
+            return None if designs.refusal else designs.machines(parameters)
+        except UntraceableError:
+            return None
 
     @cached_property
     def _machine(self) -> Machine:
@@ -202,6 +220,20 @@ class Batch:
 def _name(posture: Posture) -> object:
     """A posture as a key."""
     return posture if posture is None or isinstance(posture, str) else tuple(sorted(posture.items()))
+
+
+def _blocks(cases: Integers, most: int) -> Iterator[Integers]:
+    """Cases, at most so many at a time."""
+    for start in range(0, len(cases), most):
+        yield cases[start : start + most]
+
+
+def _near_each_other(cases: Integers, x: Array, y: Array) -> Integers:
+    """Cases in an order in which the map under one is still at hand for the next; no answer hangs on it."""
+    if len(cases) < BLOCK_WORTH:
+        return cases
+    rows, columns = np.floor(y[cases] / BLOCK), np.floor(x[cases] / BLOCK)
+    return cases[np.lexsort((columns, rows))]
 
 
 def _refusal(rover: Rover, terrain: Terrain) -> str:

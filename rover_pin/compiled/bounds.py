@@ -11,9 +11,12 @@ import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter
 
 from rover_pin.numerics import Array, inlined
+
+Tiles = NDArray[np.float32]
 
 MOST_TILES = 4_000_000
 
@@ -21,7 +24,7 @@ HEIGHT, HOLLOW, STEEP = range(3)
 """m; 1/m, the largest second derivative in any direction; the largest slope."""
 
 
-def tiles_of(c: Array, spacing: float, reaches: tuple[float, ...]) -> tuple[Array, float]:
+def tiles_of(c: Array, spacing: float, reaches: tuple[float, ...]) -> tuple[Tiles, float]:
     """Bounds over squares of a smooth map, each for all within a reach of any point of the square.
 
     Args:
@@ -30,17 +33,16 @@ def tiles_of(c: Array, spacing: float, reaches: tuple[float, ...]) -> tuple[Arra
         reaches: m.
 
     Returns:
-        (3, reaches, rows, columns) of HEIGHT, HOLLOW and STEEP, the first tile's corner half a spacing before
+        (reaches, rows, columns, 3) float32 of HEIGHT, HOLLOW and STEEP, rounded upwards; the first tile's corner half a spacing before
         the first node; the tiles' side [m].
     """
-    cells = _of_cells(c, spacing)
-    rows, columns = cells[0].shape
+    fine = _of_cells(c, spacing)
+    rows, columns = fine[0].shape
     share = max(1, math.ceil(math.sqrt(rows * columns * len(reaches) / MOST_TILES)))
     side = share * spacing
-    wide = [
-        [_dilated(part, reach / side) for reach in reaches] for part in (_coarser(c, share) for c in cells)
-    ]
-    return np.array(wide), side
+    cells = [_coarser(part, share) for part in fine]
+    wide = [[_dilated(part, reach / side) for part in cells] for reach in reaches]
+    return np.nextafter(np.moveaxis(np.array(wide), 1, 3).astype(np.float32), np.float32(np.inf)), side
 
 
 def _of_cells(c: Array, spacing: float) -> tuple[Array, Array, Array]:
@@ -87,9 +89,9 @@ def _dilated(part: Array, reach: float) -> Array:
 
 
 @inlined
-def tile(ground: Any, tiles: Array, x: float, y: float) -> tuple[int, int]:
+def tile(ground: Any, tiles: Tiles, x: float, y: float) -> tuple[int, int]:
     """Row and column of the tile that holds (x, y), or the nearest one: beyond a map its border goes on."""
-    rows, columns = tiles.shape[2], tiles.shape[3]
+    rows, columns = tiles.shape[1], tiles.shape[2]
     if rows == 1 and columns == 1:
         return 0, 0
     u, v = (x - ground.corner[0]) / ground.side, (y - ground.corner[1]) / ground.side
@@ -98,7 +100,7 @@ def tile(ground: Any, tiles: Array, x: float, y: float) -> tuple[int, int]:
 
 @inlined
 def touches_once(
-    ground: Any, tiles: Array, r: int, cx: float, cy: float, az: float, ring: float, tread: float, gap: float
+    ground: Any, tiles: Tiles, r: int, cx: float, cy: float, az: float, ring: float, tread: float, gap: float
 ) -> bool:
     """Whether a ring-shaped skin can face the ground in one place only, so that a contact found is the least.
 
@@ -124,7 +126,7 @@ def touches_once(
     if ground.bounded == 0 or ring + grown > ground.reaches[r]:
         return False
     i, j = tile(ground, tiles, cx, cy)
-    slope, hollow = tiles[2, r, i, j], tiles[1, r, i, j]
+    slope, hollow = tiles[r, i, j, STEEP], tiles[r, i, j, HOLLOW]
     if ring == 0.0:
         return hollow * grown < 0.98
     level = math.sqrt(max(1.0 - az * az, 0.0))

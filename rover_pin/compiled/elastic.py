@@ -8,9 +8,9 @@ from rover_pin.compiled.posed import Posed
 from rover_pin.compiled.state import (
     follow_contact,
     force_row,
+    gap_row,
     gravity_load,
     loop_rows,
-    motion_row,
     stop_rows,
     strut_rows,
     torsion_loads,
@@ -42,7 +42,8 @@ def held_forces(
         row = p.active[i]
         if row < shapes:
             follow_contact(p, ground, params, table, w, row)
-            motion_row(p, w, cy, sy, row)
+            w.slack[row] = w.contacts[row, 0]
+            gap_row(p, w, cy, sy, row, w.motion[row])
             force_row(p, w, cy, sy, row)
         w.gaps[i] = w.slack[row]
         for c in range(n):

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_pin.compiled.bounds import tiles_of
+from rover_pin.compiled.bounds import HEIGHT, STEEP, Tiles, tiles_of
 from rover_pin.numerics import Array
 from rover_pin.terrain import Terrain
 from rover_pin.terrain.surface import PLANE, SMOOTH
@@ -16,7 +16,7 @@ from rover_pin.terrain.surface import PLANE, SMOOTH
 Ground = Any
 """A record of GROUND."""
 
-GroundArrays = tuple[NDArray[np.void], Array, Array, Array]
+GroundArrays = tuple[NDArray[np.void], Array, Array, Tiles]
 """(1,) record, parameters, table and tiles."""
 
 MOST_REACHES = 8
@@ -49,11 +49,12 @@ def ground_of(terrain: Terrain, reaches: tuple[float, ...]) -> GroundArrays:
     record["extent"] = terrain.extent
     record["n_reaches"] = len(reaches)
     record["reaches"][0, : len(reaches)] = reaches
-    tiles = np.zeros((3, len(reaches), 1, 1))
+    tiles = np.zeros((len(reaches), 1, 1, 3), dtype=np.float32)
     if terrain.kind == PLANE:
         record["bounded"] = 1
-        tiles[0] = np.inf
-        tiles[2] = math.hypot(float(terrain.params[3]), float(terrain.params[4]))
+        tiles[..., HEIGHT] = np.inf
+        slope = np.float32(math.hypot(float(terrain.params[3]), float(terrain.params[4])))
+        tiles[..., STEEP] = np.nextafter(slope, np.float32(np.inf))
     elif terrain.kind == SMOOTH:
         record["bounded"] = 1
         tiles, side = tiles_of(np.asarray(terrain.table), float(terrain.params[4]), reaches)

@@ -83,6 +83,17 @@ def varied(
     return groups
 
 
+def filled(machine: Machine, valid: NDArray[np.bool_], spare: Machine) -> Machine:
+    """Designs whose invalid rows are those of `spare`, so that no arithmetic meets NaN; they are not used."""
+    if np.all(valid):
+        return machine
+    wide = [name for name in Machine._fields if getattr(spare, name).dtype == np.float64]
+    mended = {name: getattr(machine, name).copy() for name in wide}
+    for name, values in mended.items():
+        values[~valid] = getattr(spare, name)
+    return machine._replace(**mended)
+
+
 def _ready(made: Pose, template: Template, sizes: Array, reach: float, *, same: bool) -> Groups:
     """Supports, reaches and underside written into the machines.
 

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_pin.compiled.bounds import Tiles
 from rover_pin.compiled.margins import heights, least, on_edges, polygon
 from rover_pin.compiled.posed import Integers
 from rover_pin.compiled.search import Search
@@ -41,7 +42,7 @@ class Out(NamedTuple):
 @formula
 def settle_all(
     machines: NDArray[np.void], scratch: NDArray[np.void], grounds: NDArray[np.void], params: Array,
-    table: Array, tiles: Array, skin: Array, search: Search, groups: Integers, x: Array, y: Array, yaw: Array, out: Out,
+    table: Array, tiles: Tiles, skin: Array, search: Search, groups: Integers, x: Array, y: Array, yaw: Array, out: Out,
 ) -> None:  # fmt: skip
     """Every case by itself; where its machine is not usable it is left open.
 

@@ -8,7 +8,7 @@ from rover_pin.compiled.elastic import elastic_system
 from rover_pin.compiled.ground import Ground
 from rover_pin.compiled.linear import eliminate
 from rover_pin.compiled.posed import Posed
-from rover_pin.compiled.state import follow_contact, loop_rows, motion_row, stop_rows, strut_rows
+from rover_pin.compiled.state import follow_contact, gap_row, loop_rows, stop_rows, strut_rows
 from rover_pin.compiled.walk import walk
 from rover_pin.compiled.work import Work
 from rover_pin.numerics import Array, formula, inlined
@@ -16,6 +16,9 @@ from rover_pin.numerics import Array, formula, inlined
 ITERATIONS = 12
 STEP = 1e-7
 """Share of the span, or rad: Newton squares its error, so the step that is this small is the last."""
+
+NEXT = 1e-9
+"""The same of the step that would come next, by how much the last two fell: it need not be taken."""
 
 REACH = 0.4
 """Farthest landing, as a share of the wheels' span and in rad, as on the plain path."""
@@ -31,21 +34,21 @@ def newton_step(p: Posed, w: Work, z: Array, cy: float, sy: float) -> float:
         Sign of the determinant, 0 where there is no step.
     """
     shapes, n, count = p.n_shapes, p.n_free, p.n_active
-    for i in range(count):
-        if p.active[i] < shapes:
-            motion_row(p, w, cy, sy, p.active[i])
-    if p.n_stops > 0:
+    if count > 0 and p.active[count - 1] >= shapes:
         stop_rows(p, w, z)
-    if p.n_struts > 0:
         w.load[:] = 0.0
         strut_rows(p, w, cy, sy)
     if p.n_loops > 0:
         loop_rows(p, w, cy, sy)
     for i in range(count):
         row = p.active[i]
-        w.right[i] = -w.slack[row]
-        for c in range(n):
-            w.system[i, c] = w.motion[row, c]
+        if row < shapes:
+            w.right[i] = -w.contacts[row, 0]
+            gap_row(p, w, cy, sy, row, w.system[i])
+        else:
+            w.right[i] = -w.slack[row]
+            for c in range(n):
+                w.system[i, c] = w.motion[row, c]
     for i in range(p.n_held_loops):
         row = p.held_loops[i]
         w.right[count + i] = -w.closure[row]
@@ -63,6 +66,12 @@ def take_step(p: Posed, w: Work, z: Array) -> tuple[float, float]:
         z[c] += w.right[c]
         moved = max(moved, abs(z[c] - w.start[c]) / p.units[c])
     return largest, moved
+
+
+@inlined
+def is_last(largest: float, before: float) -> bool:
+    """Whether a step was the last that is needed, given the one before it."""
+    return largest < STEP or (largest < before and largest * (largest / before) * (largest / before) < NEXT)
 
 
 @formula
@@ -88,7 +97,9 @@ def land(
         whether it landed, and the sign of the determinant (0 where supports do not determine the pose).
     """
     determinate = p.n_active + p.n_held_loops == p.n_free
+    largest = math.inf
     for i in range(ITERATIONS):
+        before = largest
         if determinate:
             walk(p, z, x, y, cy, sy, w.rot, w.org)
             for k in range(p.n_active):
@@ -105,6 +116,6 @@ def land(
         largest, moved = take_step(p, w, z)
         if not moved <= REACH:
             return False, 0.0
-        if largest < STEP:
+        if is_last(largest, before):
             return True, sign
     return False, math.nan

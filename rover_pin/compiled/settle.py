@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from rover_pin.compiled.bounds import touches_once
+from rover_pin.compiled.bounds import Tiles, touches_once
 from rover_pin.compiled.elastic import is_steady
 from rover_pin.compiled.ground import Ground
-from rover_pin.compiled.land import ITERATIONS, REACH, STEP, land, newton_step, take_step
+from rover_pin.compiled.land import ITERATIONS, REACH, is_last, land, newton_step, take_step
 from rover_pin.compiled.posed import Posed
 from rover_pin.compiled.residuals import recompute
 from rover_pin.compiled.search import Search
@@ -30,6 +30,9 @@ WINDOW = 1e-5
 REPEATS = 4
 """Landings tried where a shape turns out to touch nearer elsewhere."""
 
+CLOSED = 1e-9
+"""m: gaps of supports that are wider after the last step are closed by further ones."""
+
 FOLLOWED = 8
 """Steps to follow a contact at the landing."""
 
@@ -39,7 +42,7 @@ MOVED = 1e-7
 
 @formula
 def settle_one(
-    p: Posed, ground: Ground, params: Array, table: Array, tiles: Array, skin: Array, search: Search,
+    p: Posed, ground: Ground, params: Array, table: Array, tiles: Tiles, skin: Array, search: Search,
     w: Work, x: float,
     y: float, yaw: float, z: Array, loads: Array, residuals: Array,
 ) -> tuple[int, int, float, int]:  # fmt: skip
@@ -70,23 +73,23 @@ def settle_one(
     stands = False
     for _ in range(REPEATS):
         if ground.kind == LINEAR:
-            landed, sign = False, 0.0
+            landed, sign, largest = False, 0.0, math.inf
             for _ in range(ITERATIONS if p.n_active + p.n_held_loops == p.n_free else 0):
                 walk(p, z, x, y, cy, sy, w.rot, w.org)
                 for k in range(p.n_active):
                     if p.active[k] < p.n_shapes:
                         search_contact(p, ground, params, table, search, w, p.active[k], 0.0)
-                sign = newton_step(p, w, z, cy, sy)
+                sign, before = newton_step(p, w, z, cy, sy), largest
                 largest, moved = take_step(p, w, z)
-                if sign == 0.0 or not moved <= REACH or largest < STEP:
-                    landed = largest < STEP and moved <= REACH
+                landed = sign != 0.0 and moved <= REACH and is_last(largest, before)
+                if landed or sign == 0.0 or not moved <= REACH:
                     break
         else:
             landed, sign = land(p, ground, params, table, w, z, x, y, cy, sy)
         if not landed or sign != p.sign or is_loose(p, ground, params, table, w, z, x, y, cy, sy):
             return OPEN, -1, 0.0, 0
         walk(p, z, x, y, cy, sy, w.rot, w.org)
-        lowest = 0.0
+        lowest, open_gap = 0.0, 0.0
         for i in range(p.n_shapes):
             if not is_proven(p, ground, params, table, tiles, w, i):
                 count = search_contact(p, ground, params, table, search, w, i, WINDOW)
@@ -94,8 +97,11 @@ def settle_one(
                     return OPEN, -1, 0.0, 0
             w.slack[i] = w.contacts[i, 0]
             lowest = min(lowest, w.slack[i])
-        stands = lowest >= PENETRATION
-        if stands:
+        for k in range(p.n_active):
+            if p.active[k] < p.n_shapes:
+                open_gap = max(open_gap, abs(w.slack[p.active[k]]))
+        stands = lowest >= PENETRATION and open_gap < TOUCHING
+        if stands and open_gap < CLOSED:
             break
     if not stands or tilt_cosine(z) < UPRIGHT:
         return OPEN, -1, 0.0, 0
@@ -126,7 +132,7 @@ def is_loose(
 
 
 @formula
-def is_proven(p: Posed, ground: Ground, params: Array, table: Array, tiles: Array, w: Work, i: int) -> bool:
+def is_proven(p: Posed, ground: Ground, params: Array, table: Array, tiles: Tiles, w: Work, i: int) -> bool:
     """Follow the contact of shape i at the landing to its end; whether the ground's bounds prove it the least."""
     if ground.kind == LINEAR:
         return False
@@ -143,7 +149,7 @@ def is_proven(p: Posed, ground: Ground, params: Array, table: Array, tiles: Arra
 
 @formula
 def judge(
-    p: Posed, ground: Ground, params: Array, table: Array, tiles: Array, skin: Array, w: Work, z: Array,
+    p: Posed, ground: Ground, params: Array, table: Array, tiles: Tiles, skin: Array, w: Work, z: Array,
     cy: float, sy: float, loads: Array, residuals: Array,
 ) -> tuple[int, int, float, int]:  # fmt: skip
     """What a landing is: off the map, in the ground, settled with its loads, or for the plain path to say."""

@@ -66,15 +66,13 @@ def start_contacts(p: Posed, w: Work) -> None:
 
 
 @inlined
-def motion_row(p: Posed, w: Work, cy: float, sy: float, s: int) -> None:
-    """Slack and gradient of shape s's gap: the velocity of its contact point along the normal."""
+def gap_row(p: Posed, w: Work, cy: float, sy: float, s: int, row: Array) -> None:
+    """Gradient of shape s's gap (n,): the velocity of its contact point along the normal."""
     c = w.contacts
-    w.slack[s] = c[s, 0]
-    row = w.motion[s]
-    row[:] = 0.0
+    for k in range(p.n_free):
+        row[k] = 0.0
     point_row(
-        p, w.rot, w.org, cy, sy, p.carriers[s], c[s, 1], c[s, 2], c[s, 3], c[s, 4], c[s, 5], c[s, 6],
-        1.0, row,
+        p, w.rot, w.org, cy, sy, p.carriers[s], c[s, 1], c[s, 2], c[s, 3], c[s, 4], c[s, 5], c[s, 6], 1.0, row
     )  # fmt: skip
 
 
@@ -83,7 +81,8 @@ def force_row(p: Posed, w: Work, cy: float, sy: float, s: int) -> None:
     """Generalised force of a unit load against gravity at shape s's contact: the vertical velocity row."""
     c = w.contacts
     row = w.force[s]
-    row[:] = 0.0
+    for k in range(p.n_free):
+        row[k] = 0.0
     point_row(p, w.rot, w.org, cy, sy, p.carriers[s], c[s, 1], c[s, 2], c[s, 3], 0.0, 0.0, 1.0, 1.0, row)
 
 

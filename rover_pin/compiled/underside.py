@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from rover_pin.compiled.bounds import tile
+from rover_pin.compiled.bounds import HEIGHT, Tiles, tile
 from rover_pin.compiled.ground import Ground
 from rover_pin.compiled.posed import Posed
 from rover_pin.compiled.walk import place
@@ -19,7 +19,7 @@ DEEP = -1e-9
 
 
 @formula
-def is_clear(p: Posed, ground: Ground, params: Array, table: Array, tiles: Array, w: Work) -> bool:
+def is_clear(p: Posed, ground: Ground, params: Array, table: Array, tiles: Tiles, w: Work) -> bool:
     """Whether every corner of the outlines is above all ground within reach of its body's outline.
 
     Outlines are ordered by body; on a plane corners are compared with the plane itself.
@@ -43,7 +43,7 @@ def is_clear(p: Posed, ground: Ground, params: Array, table: Array, tiles: Array
         if ground.bounded == 0 or p.outline_fits == 0:
             return False
         row, column = tile(ground, tiles, mx / (i - first), my / (i - first))
-        if not lowest > tiles[0, last, row, column]:
+        if not lowest > tiles[last, row, column, HEIGHT]:
             return False
     return True
 
@@ -71,7 +71,7 @@ def deepest(p: Posed, ground: Ground, params: Array, table: Array, skin: Array, 
 
 @formula
 def look_below(
-    p: Posed, ground: Ground, params: Array, table: Array, tiles: Array, skin: Array, w: Work
+    p: Posed, ground: Ground, params: Array, table: Array, tiles: Tiles, skin: Array, w: Work
 ) -> tuple[int, int, float]:
     """CLEAR, IN_GROUND or UNKNOWN; the deepest point and how deep it is [m].
 
