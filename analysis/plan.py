@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pinocchio as pin
 
-from rover_pin.analysis.cases import Questions, draw
+from rover_pin.analysis.cases import Questions
+from rover_pin.analysis.draw import draw
 from rover_pin.analysis.job import Job
 from rover_pin.analysis.provenance import digest, versions
 from rover_pin.analysis.quantities import MAP, Choice, Quantity, Span

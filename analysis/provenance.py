@@ -13,6 +13,7 @@ PACKAGES = {
     "pin": "pin",
     "proxsuite": "proxsuite",
     "numpy": "numpy",
+    "scipy": "scipy",
     "numba": "numba",
 }
 

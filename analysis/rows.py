@@ -1,24 +1,32 @@
-"""A case's answer as a row, and rows as columns of numbers and words."""
+"""A case's answer as a row, rows as columns, columns cut and joined."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_pin.analysis.vocabulary import Words, joined_words
 from rover_pin.numerics import Array
 from rover_pin.stability.margin import Margin
 from rover_pin.statics.stance import Stance
 
-Columns = dict[str, NDArray[np.generic]]
-"""Arrays by name, the first axis the case; `edges/<measure>` holds the names of that measure's edges."""
+Columns = dict[str, NDArray[Any]]
+"""Arrays by name, the first axis the case.
+
+Words are codes, and `words/<name>` holds the words themselves; `edges/<measure>` holds the names along the
+second axis of `<measure>_edge`.
+"""
 
 POSE = ("z_m", "roll_rad", "pitch_rad")
 RESIDUALS = ("equilibrium", "gap_m", "loop_m", "complementarity")
 EDGES = "edges/"
+WORDS = "words/"
 BOUNDS = "bounds"
+PLAIN = "plain_path"
 
 
 @dataclass(frozen=True)
@@ -36,7 +44,7 @@ class Layout:
 
 
 class Rows:
-    """Rows being filled; a row that is never filled in says NaN and no word."""
+    """Rows being filled, case by case; a row that is never filled in says NaN and no word."""
 
     def __init__(self, layout: Layout, count: int) -> None:
         self.layout = layout
@@ -84,18 +92,25 @@ class Rows:
             self._numbers["load_low_n"][row, k], self._numbers["load_high_n"][row, k] = low, high
 
     def columns(self) -> Columns:
-        """Everything as arrays."""
-        out: Columns = {"status": _words(self._status), "reason": _words(self._reason), **self._numbers}
+        """Everything as arrays; the plain path answered."""
+        out: Columns = {**coded("status", Words.of(self._status)), **coded("reason", Words.of(self._reason))}
+        out |= {PLAIN: np.ones(len(self._status), dtype=np.int8), **self._numbers}
         for name in self.layout.margins:
-            out[f"{name}_limiting"] = _words(self._limiting[name])
+            out |= coded(f"{name}_limiting", Words.of(self._limiting[name]))
             names = sorted({edge for edges in self._edges[name] for edge in edges})
-            out[EDGES + name] = _words(names)
+            out[EDGES + name] = np.array(names, dtype=np.str_)
             out[f"{name}_edge"] = _table(self._edges[name], names)
         return out
 
 
-def _words(words: Sequence[str]) -> NDArray[np.str_]:
-    return np.array(words, dtype=np.str_)
+def coded(name: str, words: Words) -> Columns:
+    """A column of words."""
+    return {name: words.code, WORDS + name: words.known}
+
+
+def words(columns: Columns, name: str) -> Words:
+    """The words of a column."""
+    return Words(columns[name], columns[WORDS + name])
 
 
 def _table(rows: Sequence[Mapping[str, float]], names: Sequence[str]) -> Array:
@@ -108,24 +123,57 @@ def _table(rows: Sequence[Mapping[str, float]], names: Sequence[str]) -> Array:
     return table
 
 
+def is_list(name: str) -> bool:
+    """Whether an array of that name lists names or words, and holds no rows."""
+    return name.startswith((EDGES, WORDS))
+
+
+def count_of(columns: Columns) -> int:
+    """The number of rows."""
+    return len(columns["status"])
+
+
+def cut(columns: Columns, rows: slice | NDArray[np.int64]) -> Columns:
+    """Some of the rows; names and words stay as they are."""
+    return {key: values if is_list(key) else values[rows] for key, values in columns.items()}
+
+
 def joined(parts: Sequence[Columns]) -> Columns:
     """Parts in the order of their cases as one; edges that only some parts have are NaN in the others."""
+    if len(parts) == 1:
+        return parts[0]
     out: Columns = {}
     for key in parts[0]:
         if key.startswith(EDGES):
             measure = key.removeprefix(EDGES)
-            names = sorted({str(name) for part in parts for name in part[key]})
-            out[key] = _words(names)
-            out[f"{measure}_edge"] = np.concatenate([_widened(part, measure, names) for part in parts])
-        elif not (key.endswith("_edge") and EDGES + key.removesuffix("_edge") in parts[0]):
+            names = np.unique(np.concatenate([part[key] for part in parts]))
+            out[key] = names
+            out[f"{measure}_edge"] = np.concatenate([widened(part, measure, names) for part in parts])
+        elif WORDS + key in parts[0]:
+            out |= coded(key, joined_words([words(part, key) for part in parts]))
+        elif not key.startswith(WORDS) and not _is_table(key, parts[0]):
             out[key] = np.concatenate([part[key] for part in parts])
     return out
 
 
-def _widened(part: Columns, measure: str, names: Sequence[str]) -> Array:
-    """A part's edges of one measure along all names."""
-    own = part[f"{measure}_edge"]
+def compact(columns: Columns) -> Columns:
+    """Without words that no row says."""
+    out = dict(columns)
+    for key in columns:
+        if WORDS + key in columns:
+            out |= coded(key, Words.picked(columns[key], columns[WORDS + key]))
+    return out
+
+
+def _is_table(key: str, columns: Columns) -> bool:
+    return key.endswith("_edge") and EDGES + key.removesuffix("_edge") in columns
+
+
+def widened(part: Columns, measure: str, names: NDArray[np.str_]) -> Array:
+    """(rows, names): a part's edges of one measure along sorted names that hold its own."""
+    own: Array = part[f"{measure}_edge"]
+    if len(own.T) == len(names):
+        return own
     wide = np.full((len(own), len(names)), np.nan)
-    place = {name: k for k, name in enumerate(names)}
-    wide[:, [place[str(name)] for name in part[EDGES + measure]]] = own
+    wide[:, np.searchsorted(names, part[EDGES + measure])] = own
     return wide

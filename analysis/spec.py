@@ -23,8 +23,8 @@ from rover_pin.analysis.words import gravity, posture
 from rover_pin.analysis.yaml_file import read_mapping
 from rover_pin.errors import StudyError, nearest
 
-MOST_CASES = 10_000_000
-ROBOTS = 128
+MOST_CASES = 2**30
+"""As many points as a Sobol sequence of scipy has."""
 
 DEFAULT_STUDY = """\
 robot: rocker_bogie
@@ -45,15 +45,13 @@ class CasesSpec(Strict):
 
     `sobol`: n scrambled Sobol points of `seed` over everything that varies. `grid`: every combination, ranges
     cut into the counts of `grid` (by the quantity's name), or into one common count so that there are at
-    most n cases. Under `sobol` parameters are drawn as `robots` different robots, each for a run of cases,
-    because every robot is read anew from its files.
+    most n cases.
     """
 
     sampler: Literal["sobol", "grid"] = "sobol"
     n: int | None = Field(default=None, ge=1, le=MOST_CASES)
     seed: int = Field(default=0, ge=0)
     grid: dict[str, Annotated[int, Field(ge=1)]] | None = None
-    robots: int = Field(default=ROBOTS, ge=1, le=MOST_CASES)
 
     @model_validator(mode="before")
     @classmethod

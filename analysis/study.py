@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-import time
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
@@ -12,12 +10,14 @@ from typing import TYPE_CHECKING, Any
 from rover_pin.analysis.engines import Resources, engine
 from rover_pin.analysis.given import GivenTerrain, as_text
 from rover_pin.analysis.job import Chunk, Runner
+from rover_pin.analysis.parts import Parts
 from rover_pin.analysis.plan import Plan, plan
 from rover_pin.analysis.quantities import MAP
 from rover_pin.analysis.rows import Columns
 from rover_pin.analysis.spec import DEFAULT_STUDY, StudySpec, read_spec
-from rover_pin.analysis.store import Memory, Parts, missing
+from rover_pin.analysis.store import Memory, missing
 from rover_pin.analysis.strict import checked
+from rover_pin.analysis.trial import trial
 from rover_pin.analysis.yaml_file import parse_mapping
 from rover_pin.errors import StudyError
 
@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from rover_pin.statics.stance import Stance
     from rover_pin.terrain import Terrain
 
-CHUNK_SECONDS = 0.75
-LARGEST_CHUNK = 2000
 Progress = Callable[[int, int], None]
 """Called with the number of cases finished and of all cases."""
 
@@ -124,8 +122,11 @@ class Study:
         from rover_pin.analysis.dataset import read
 
         if isinstance(data, str | Path):
-            data = read(Path(data))
-        text, folder = str(data.attrs["study"]), str(data.attrs["study_folder"])
+            with read(Path(data)) as opened:
+                attrs = opened.attrs
+        else:
+            attrs = data.attrs
+        text, folder = str(attrs["study"]), str(attrs["study_folder"])
         return cls.from_text(text, file="the result's study", folder=folder)
 
     @cached_property
@@ -146,7 +147,10 @@ class Study:
         return len(self.plan.job.cases)
 
     def stance(self, case: int) -> Stance:
-        """One case at rest, the same to the last bit as in the result.
+        """One case at rest, by the plain path.
+
+        Where a row of the result says `plain_path` 1, it is this stance to the last bit; a row of the
+        compiled path agrees with it to 1e-8 m, 1e-8 rad and 1e-5 N.
 
         Raises:
             InputError: no such case, or one that cannot be posed.
@@ -169,56 +173,49 @@ class Study:
         """Every case, as a Dataset; the values hang neither on the engine nor on the chunks.
 
         Args:
-            engine: `serial` or `process`.
+            engine: `serial`, `process`, or another of `analysis/engines/`.
             workers: worker processes; None for one a core.
             scheduler: a scheduler's address, for engines that take one.
             out: the netCDF file to write; finished chunks are kept in `<out>.parts/` until it is whole.
+                The Dataset is then opened lazily from it; memory does not grow with the number of cases.
+                None keeps all of it in memory.
             resume: go on with the parts of a run that was killed.
             chunk: cases a chunk; None for about three quarters of a second's work.
             progress: called with finished and all cases.
 
         Raises:
-            InputError: the study or the place of the result cannot be used; nothing is written then.
+            InputError: the study or the place of the result cannot be used, or the result needs more disk
+                than there is; nothing is written then. Or the disk filled up; what is finished is kept.
             SolverError: a case failed in a way that no status describes; what is finished is kept.
         """
-        from rover_pin.analysis.dataset import dataset, write
+        from rover_pin.analysis.dataset import dataset
+        from rover_pin.analysis.result import check_disk, save_result
 
-        chosen = _engine(engine, Resources(workers, scheduler))
+        if chunk is not None and chunk < 1:
+            raise StudyError("must be at least 1", element="chunk", value=chunk)
         resources = Resources(workers, scheduler)
-        ready = self.plan
-        kept = Memory() if out is None else Parts(Path(out), ready.fingerprint, resume=resume)
+        chosen = _engine(engine, resources)
+        parts = None if out is None else Parts(Path(out), self.plan.fingerprint, resume=resume)
         self._runner.first()
-        count = len(self)
-        size = chunk if chunk is not None else self._chunk_size(chosen.workers(resources))
-        if size < 1:
-            raise StudyError("must be at least 1", element="chunk", value=size)
-        kept.begin()
+        tried = trial(self._runner, len(self), chunk)
+        size = chunk or tried.chunk(len(self), chosen.workers(resources))
+        kept = Memory() if parts is None else parts
+        if parts is not None:
+            check_disk(self, parts, tried)
+            parts.begin()
+        del tried
         finished = sum(stop - start for start, stop in kept.done())
         report = progress or _silent
-        report(finished, count)
+        report(finished, len(self))
 
         def done(part: Chunk, columns: Columns) -> None:
             nonlocal finished
             kept.save(part, columns)
             finished += part[1] - part[0]
-            report(finished, count)
+            report(finished, len(self))
 
-        chosen.run(ready.job, missing(kept.done(), count, size), resources, done)
-        data = dataset(self, kept.columns())
-        kept.finish(lambda path: write(data, path))
-        return data
-
-    def _chunk_size(self, workers: int) -> int:
-        """Cases that take about three quarters of a second; fewer where workers would stand idle."""
-        count = len(self)
-        start = time.perf_counter()
-        tried = 0
-        while tried < min(count, 20) and time.perf_counter() - start < 0.3:
-            self._runner.run((tried, tried + 1))
-            tried += 1
-        each = (time.perf_counter() - start) / tried
-        fair = math.ceil(count / workers)
-        return max(1, min(math.ceil(CHUNK_SECONDS / max(each, 1e-6)), fair, LARGEST_CHUNK))
+        chosen.run(self.plan.job, missing(kept.done(), len(self), size), resources, done)
+        return dataset(self, kept.columns()) if isinstance(kept, Memory) else save_result(self, kept)
 
     def __repr__(self) -> str:
         """One line."""

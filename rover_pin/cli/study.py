@@ -41,6 +41,7 @@ def study(
 ) -> int:
     """Many cases of one question, each a row of a dataset."""
     from rover_pin.analysis import Study
+    from rover_pin.analysis.summary import statuses
     from rover_pin.cli.output import announce_compilation, aside, check_outputs, print_json
     from rover_pin.cli.study_report import print_study, study_object
 
@@ -64,19 +65,24 @@ def study(
                 progress=progress,
             )
     except KeyboardInterrupt:
-        aside(f"interrupted; what is finished is kept in {path}.parts: go on with --resume")
+        kept = path.with_name(f"{path.name}.parts")
+        if kept.is_dir():
+            aside(f"interrupted; what is finished is kept in {kept}: go on with --resume")
+        else:
+            aside("interrupted before anything was finished")
         return INTERRUPTED
     seconds = time.perf_counter() - started
     if html is not None:
         _save_page(asked, data, html)
+    ended = statuses(data)
     if json:
-        print_json(study_object(data, path, html, seconds))
+        print_json(study_object(data, ended, path, html, seconds))
     else:
-        print_study(data, seconds)
+        print_study(data, ended, seconds)
     for written in (path, html):
         if written is not None:
             aside(f"wrote {written}")
-    return 0 if bool((data["status"] == "settled").any()) else 1
+    return 0 if ended.get("settled") else 1
 
 
 def _save_page(asked: Study, data: xr.Dataset, html: Path) -> None:

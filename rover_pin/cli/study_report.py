@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rover_pin.analysis.summary import SHARES, largest_residuals, measures, spread, statuses
+from rover_pin.analysis.summary import SHARES, largest_residuals, measures, spread
 from rover_pin.cli.output import figure, fixed, line, new_table, print_table
 
 if TYPE_CHECKING:
@@ -15,14 +16,17 @@ if TYPE_CHECKING:
 WORST = 10
 
 
-def study_object(data: xr.Dataset, out: Path, html: Path | None, seconds: float) -> dict[str, Any]:
-    """What `study --json` prints."""
+def study_object(
+    data: xr.Dataset, ended: Mapping[str, int], out: Path, html: Path | None, seconds: float
+) -> dict[str, Any]:
+    """What `study --json` prints; `ended` is how many cases ended in which way."""
     spreads = {name: spread(data, name, WORST) for name in measures(data)}
     return {
         "robot": data.attrs["robot"],
         "terrain": data.attrs["terrain"],
         "cases": data.sizes["case"],
-        "status": statuses(data),
+        "status": ended,
+        "plain_path": int(data.attrs["plain_path_cases"]),
         "measures": {
             name: {
                 "unit": each.unit,
@@ -39,17 +43,14 @@ def study_object(data: xr.Dataset, out: Path, html: Path | None, seconds: float)
     }
 
 
-def print_study(data: xr.Dataset, seconds: float) -> None:
+def print_study(data: xr.Dataset, ended: Mapping[str, int], seconds: float) -> None:
     """The result for people: how cases ended, each measure's spread, the worst cases."""
     count = data.sizes["case"]
     line(f"{data.attrs['title']}: {count} cases in {seconds:.1f} s")
-    line(
-        "  ".join(
-            f"{word} {number} ({100 * number / count:.1f} %)" for word, number in statuses(data).items()
-        )
-    )
+    line("  ".join(f"{word} {_share(number, count)}" for word, number in ended.items()))
+    line(f"answered by the plain path: {_share(int(data.attrs['plain_path_cases']), count)}")
     names = measures(data)
-    if not names or not (data["status"] == "settled").any():
+    if not names or "settled" not in ended:
         return
     table = new_table(
         "", "measure", "unit", "better", *(f"{share} %" for share in SHARES), "worst case", left=3
@@ -63,6 +64,10 @@ def print_study(data: xr.Dataset, seconds: float) -> None:
     print_table(table)
     _print_worst(data, "tip" if "tip" in names else names[0])
     line("largest residuals: " + "  ".join(f"{n} {v:.1e}" for n, v in largest_residuals(data).items()))
+
+
+def _share(number: int, count: int) -> str:
+    return f"{number} ({100 * number / count:.1f} %)"
 
 
 def _print_worst(data: xr.Dataset, measure: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import itertools
 import json
 import re
@@ -11,54 +12,15 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from rows_double import rows, same
 
-from rover_pin.analysis.rows import Columns, Layout, Rows, joined
-from rover_pin.analysis.store import Memory, Parts, atomically, missing
+from rover_pin.analysis.found import found_in
+from rover_pin.analysis.parts import Parts
+from rover_pin.analysis.rows import cut, joined, words
+from rover_pin.analysis.store import Memory, atomically, missing
 from rover_pin.errors import StudyError
-from rover_pin.stability.margin import Margin
 
-LAYOUT = Layout(("a", "b"), ("hinge",), ("tip",))
 PRINT = {"the terrain": "1", "the robot's description": "2"}
-
-
-def rows(cases: list[dict[str, float]]) -> Columns:
-    """Rows whose tip margin has these edges; an empty case is a failed one."""
-    out = Rows(LAYOUT, len(cases))
-    for i, edges in enumerate(cases):
-        if edges:
-            limiting = min(edges, key=edges.__getitem__)
-            out.margins(i, {"tip": Margin("tip", edges[limiting], "rad", limiting, edges, "high")})
-        else:
-            out.failed(i, "tips", "over b")
-    return out.columns()
-
-
-def same(a: Columns, b: Columns) -> bool:
-    return list(a) == list(b) and all(
-        a[key].dtype.kind == b[key].dtype.kind
-        and np.array_equal(a[key], b[key], equal_nan=a[key].dtype.kind == "f")
-        for key in a
-    )
-
-
-@given(
-    cases=st.lists(
-        st.dictionaries(st.sampled_from(["a-b", "b-a", "a", "c-b"]), st.floats(-1, 1)), min_size=1
-    ),
-    data=st.data(),
-)
-@settings(max_examples=40, deadline=None, derandomize=True)
-def test_rows_join_alike_however_they_are_cut(cases: list[dict[str, float]], data: st.DataObject) -> None:
-    cut = data.draw(st.integers(0, len(cases) - 1))
-    parts = [part for part in (cases[:cut], cases[cut:]) if part]
-    assert same(joined([rows(cases)]), joined([rows(part) for part in parts]))
-
-
-def test_a_failed_row_has_words_and_no_numbers() -> None:
-    columns = rows([{}])
-    assert (columns["status"][0], columns["reason"][0], columns["tip_limiting"][0]) == ("tips", "over b", "")
-    assert np.isnan(columns["tip"][0])
-    assert np.isnan(columns["load_n"]).all()
 
 
 @given(
@@ -82,8 +44,10 @@ def test_parts_survive_and_come_back(tmp_path: Path) -> None:
     first.save((0, 2), rows([{"a-b": 1.0}, {}]))
     again = Parts(out, PRINT, resume=True)
     assert again.done() == [(0, 2)]
-    assert same(again.columns()[0], rows([{"a-b": 1.0}, {}]))
+    assert same(next(again.blocks(10)), rows([{"a-b": 1.0}, {}]))
     again.save((2, 3), rows([{"b-a": 2.0}]))
+    assert (again.found.edges["tip"], again.found.cases, again.found.plain) == ({"a-b", "b-a"}, 3, 3)
+    assert again.found.width == found_in(rows([{"a-b": 1.0}, {}, {"b-a": 2.0}])).width
     again.finish(lambda path: path.write_text("whole") and None)
     assert out.read_text() == "whole"
     assert [entry.name for entry in tmp_path.iterdir()] == ["out.nc"]
@@ -111,7 +75,103 @@ def test_a_damaged_part_is_run_again(tmp_path: Path) -> None:
     store.begin()
     store.save((0, 1), rows([{}]))
     (tmp_path / "out.nc.parts" / "00000001-00000002.npz").write_bytes(b"PK\x03\x04 cut off")
-    assert Parts(out, PRINT, resume=True).done() == [(0, 1)]
+    again = Parts(out, PRINT, resume=True)
+    assert (again.done(), again.found.cases) == ([(0, 1)], 1)
+
+
+def test_a_part_that_rots_later_is_named(tmp_path: Path) -> None:
+    out = tmp_path / "out.nc"
+    store = Parts(out, PRINT, resume=False)
+    store.begin()
+    store.save((0, 2), rows([{"a-b": 1.0}, {"a-b": 1.5}]))
+    (path,) = (tmp_path / "out.nc.parts").glob("*.npz")
+    whole = bytearray(path.read_bytes())
+    at = whole.index(np.array([1.0, 1.5]).tobytes())
+    whole[at] ^= 1
+    path.write_bytes(whole)
+    message = f"^{re.escape(str(path))}: this part cannot be read: .*; delete it and go on with --resume$"
+    with pytest.raises(StudyError, match=message):
+        list(store.blocks(10))
+
+
+@given(
+    cases=st.lists(
+        st.dictionaries(st.sampled_from(["a-b", "b-a", "c-b"]), st.floats(-1, 1)), min_size=1, max_size=20
+    ),
+    sizes=st.lists(st.integers(1, 6), min_size=20, max_size=20),
+    block=st.integers(1, 9),
+)
+@settings(max_examples=25, deadline=None, derandomize=True)
+def test_blocks_are_alike_however_the_parts_were_cut(
+    tmp_path_factory: pytest.TempPathFactory, cases: list[dict[str, float]], sizes: list[int], block: int
+) -> None:
+    store = Parts(tmp_path_factory.mktemp("parts") / "out.nc", PRINT, resume=False)
+    store.begin()
+    start = 0
+    for size in sizes:
+        if part := cases[start : start + size]:
+            store.save((start, start + len(part)), rows(part))
+        start += size
+    blocks = list(store.blocks(block))
+    assert [len(each["status"]) for each in blocks[:-1]] == [block] * (len(blocks) - 1)
+    whole = joined([rows(cases)])
+    for k, each in enumerate(blocks):
+        wanted = cut(whole, slice(k * block, (k + 1) * block))
+        assert each["tip"].tobytes() == wanted["tip"].tobytes()
+        for name in ("status", "tip_limiting"):
+            assert list(words(each, name).spelled()) == list(words(wanted, name).spelled())
+    assert store.found.edges["tip"] == {edge for case in cases for edge in case}
+
+
+def full(*_: object, **__: object) -> None:
+    raise OSError(errno.ENOSPC, "No space left on device")
+
+
+def test_a_full_disk_is_one_error_and_what_is_finished_stays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "out.nc"
+    store = Parts(out, PRINT, resume=False)
+    store.begin()
+    store.save((0, 1), rows([{"a-b": 1.0}]))
+    message = f"{out}.parts: the disk is full; what is finished is kept: make room and go on with --resume"
+    with monkeypatch.context() as patch:
+        patch.setattr(np, "savez", full)
+        with pytest.raises(StudyError, match=f"^{re.escape(message)}$"):
+            store.save((1, 2), rows([{}]))
+    assert store.done() == Parts(out, PRINT, resume=True).done() == [(0, 1)]
+
+    def half(path: Path) -> None:
+        path.write_text("half")
+        full()
+
+    with pytest.raises(StudyError, match=f"^{re.escape(message)}$"):
+        store.finish(half)
+    assert sorted(entry.name for entry in store.folder.iterdir()) == [
+        "0000000000-0000000001.npz",
+        "study.json",
+    ]
+
+
+def test_other_troubles_of_the_disk_are_told_as_they_are(tmp_path: Path) -> None:
+    def breaks(_: Path) -> None:
+        raise OSError(errno.EIO, "Input/output error")
+
+    store = Parts(tmp_path / "out.nc", PRINT, resume=False)
+    store.begin()
+    with pytest.raises(OSError, match="Input/output error"):
+        store.finish(breaks)
+
+
+def test_drafts_of_a_killed_run_are_cleared(tmp_path: Path) -> None:
+    store = Parts(tmp_path / "out.nc", PRINT, resume=False)
+    store.begin()
+    (store.folder / ".0000000000-0000000001.npz.77.tmp").write_text("half a part")
+    (store.folder / "result.nc").write_text("half a result")
+    again = Parts(tmp_path / "out.nc", PRINT, resume=True)
+    assert again.done() == []
+    again.begin()
+    assert [entry.name for entry in store.folder.iterdir()] == ["study.json"]
 
 
 def test_parts_without_their_paper_are_refused(tmp_path: Path) -> None:
@@ -151,4 +211,5 @@ def test_memory_keeps_chunks_in_order() -> None:
     store.save((1, 2), rows([{}]))
     store.save((0, 1), rows([{"a-b": 1.0}]))
     assert store.done() == [(0, 1), (1, 2)]
-    assert store.columns()[0]["tip"][0] == 1.0
+    assert store.columns()["tip"][0] == 1.0
+    assert np.isnan(store.columns()["tip"][1])

@@ -10,7 +10,6 @@ from typing import Any
 import pytest
 import xarray as xr
 
-from rover_pin.analysis import Study
 from rover_pin.cli import main
 
 SMALL = """\
@@ -44,6 +43,7 @@ def test_a_study_gives_a_file_a_page_and_an_object(run: Any, spec: Path, tmp_pat
     assert status == 0
     summary = json.loads(told)
     assert (summary["cases"], summary["status"]) == (12, {"settled": 12})
+    assert summary["plain_path"] in range(13)
     assert set(summary["measures"]) == {"tip", "loads"}
     assert set(summary["measures"]["tip"]["percentiles"]) == {"1", "5", "50", "95", "99"}
     assert len(summary["measures"]["tip"]["worst"]) == 10
@@ -51,6 +51,7 @@ def test_a_study_gives_a_file_a_page_and_an_object(run: Any, spec: Path, tmp_pat
     assert err == f"wrote {out}\nwrote {page}\n"
     data = xr.load_dataset(out, engine="h5netcdf")
     assert data.attrs["study"] == SMALL
+    assert summary["plain_path"] == int(data.plain_path.sum()) == data.attrs["plain_path_cases"]
     assert summary["measures"]["tip"]["worst"][0]["value"] == float(data.tip.min())
     assert page.stat().st_size > 100_000
     assert sorted(entry.name for entry in tmp_path.iterdir()) == ["out.nc", "page.html", "small.yaml"]
@@ -65,6 +66,7 @@ def test_a_silent_out_is_named_after_the_file(
     assert (tmp_path / "small.nc").is_file()
     assert told.startswith("rocker_bogie on rough:3,0.06,0.7")
     assert "settled 12 (100.0 %)" in told
+    assert re.search(r"^answered by the plain path: \d+ \(\d+\.\d %\)$", told, re.MULTILINE)
     assert re.search(r"tip\s+rad\s+high", told)
 
 
@@ -79,19 +81,20 @@ def test_a_study_without_an_answer_is_one(run: Any, tmp_path: Path) -> None:
 def test_resume_after_an_interrupt(
     run: Any, spec: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    from rover_pin.analysis import trial
     from rover_pin.analysis.job import Runner
 
     out = tmp_path / "out.nc"
-    pose = Runner.stance
+    carry_out = Runner.run
 
-    def interrupted(self: Runner, i: int) -> Any:
-        if i == 9:
+    def interrupted(self: Runner, chunk: tuple[int, int]) -> Any:
+        if chunk[0] <= 9 < chunk[1]:
             raise KeyboardInterrupt
-        return pose(self, i)
+        return carry_out(self, chunk)
 
-    monkeypatch.setattr(Study, "_chunk_size", lambda self, workers: 4)
+    monkeypatch.setattr(trial, "LARGEST_CHUNK", 4)
     with monkeypatch.context() as patch:
-        patch.setattr(Runner, "stance", interrupted)
+        patch.setattr(Runner, "run", interrupted)
         status, told, err = run("study", spec, "-o", out, "--engine", "serial", "--json")
     assert (status, told) == (130, "")
     assert err == f"interrupted; what is finished is kept in {out}.parts: go on with --resume\n"
@@ -139,3 +142,17 @@ def test_bad_input_writes_nothing(
 def test_no_such_study_file(run: Any, tmp_path: Path) -> None:
     path = tmp_path / "none.yaml"
     assert run("study", path, "-o", tmp_path / "o.nc") == (2, "", f"error: {path}: no such file\n")
+
+
+def test_an_interrupt_before_anything_is_finished(
+    run: Any, spec: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from rover_pin.analysis.job import Runner
+
+    def interrupted(self: Runner) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Runner, "first", interrupted)
+    status, told, err = run("study", spec, "-o", tmp_path / "out.nc", "--engine", "serial")
+    assert (status, told, err) == (130, "", "interrupted before anything was finished\n")
+    assert [entry.name for entry in tmp_path.iterdir()] == ["small.yaml"]

@@ -55,8 +55,10 @@ def test_a_case_and_the_worst_one(shown: Shown, tmp_path: Path, capsys: pytest.C
     vary = {"x": "map", "y": "map", "yaw_deg": [0, 360]}
     data = Study("rocker_bogie", ROUGH, cases={"n": 6}, vary=vary, measures=["loads", "tip"]).run(out=out)
     assert main(["view", str(out), "--case", "2"]) == 0
-    assert shown.stance.position[2] == float(data.z_m[2])
+    assert shown.stance.position[2] == pytest.approx(float(data.z_m[2]), abs=1e-8)
     assert main(["view", str(out)]) == 0
-    assert shown.stance.position[2] == float(data.z_m[int(np.argmin(data.tip.values))])
+    assert shown.stance.position[2] == pytest.approx(
+        float(data.z_m[int(np.argmin(data.tip.values))]), abs=1e-8
+    )
     assert main(["view", str(out), "--case", "6"]) == 2
     assert capsys.readouterr().err == "error: case: no such case (got 6); give 0 to 5\n"
