@@ -1,4 +1,4 @@
-"""From the headings of a cell to the cell: the worst and the best of those that settle, the commonest failure."""
+"""From the headings of a cell to the cell: the worst and the best that settle, the commonest failure."""
 
 from __future__ import annotations
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import datetime
+import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 import xarray as xr
@@ -91,13 +92,18 @@ def write_netcdf(data: xr.Dataset, path: Path) -> None:
         for name, values in data.variables.items()
         if values.dtype.kind in "fi"
     }
-    atomically(path, lambda file: _done(data.to_netcdf(file, engine="h5netcdf", encoding=encoding)))
+    draft = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    try:
+        data.to_netcdf(draft, engine="h5netcdf", encoding=encoding)
+        draft.replace(path)
+    finally:
+        draft.unlink(missing_ok=True)
 
 
 def write_tiff(data: xr.Dataset, path: Path) -> None:
     """Write `worst` as float32, NaN where there is none, rows along +y; the file is whole or not there.
 
-    The distance of pixels is in the tag ModelPixelScale, so that `Terrain.from_file` and GIS programs find it.
+    The distance of pixels is in the tag ModelPixelScale, where `Terrain.from_file` and GIS programs find it.
 
     Raises:
         OSError: it cannot be written.
@@ -107,11 +113,8 @@ def write_tiff(data: xr.Dataset, path: Path) -> None:
     step = float(data.x[1] - data.x[0]) if data.sizes["x"] > 1 else float(data.attrs["spacing"])
     scale = (PIXEL_SCALE_TAG, DOUBLE, 3, (step, step, 0.0), True)
     pixels = data["worst"].values.astype(np.float32)
-    atomically(
-        path,
-        lambda file: _done(tifffile.imwrite(file, pixels, extratags=[scale], photometric="minisblack")),
-    )
 
+    def write(file: BinaryIO) -> None:
+        tifffile.imwrite(file, pixels, extratags=[scale], photometric="minisblack")
 
-def _done(_: object) -> None:
-    return None
+    atomically(path, write)

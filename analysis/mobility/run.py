@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
 
 BLOCK_CASES = 50_000
-"""About how many cases one call of the compiled path answers: many enough to be quick, few enough to be small."""
+"""About how many cases one call of the compiled path answers: enough to be quick, not too many to be small."""
 
 Progress = Callable[[int, int], None]
 """Called with the number of cases finished and of all cases."""
@@ -106,7 +106,9 @@ def _survey(
         cure = "give a height map's file, rough:SEED,RMS,HURST, or Terrain.from_grid"
         raise TerrainError("a mobility map needs the nodes of a grid", element=terrain.label, cure=cure)
     if terrain.bounded:
-        terrain.require_room(rover.wheel_span, f"{rover.name}, whose wheels are {rover.wheel_span:.3g} m apart")
+        terrain.require_room(
+            rover.wheel_span, f"{rover.name}, whose wheels are {rover.wheel_span:.3g} m apart"
+        )
     x, y = (nodes[::every] for nodes in terrain.nodes)
     yaw = 2.0 * np.pi * np.arange(headings) / headings
     survey = Survey(rover, terrain, x, y, yaw, measure, posture, gravity)
@@ -124,9 +126,7 @@ def _check_measure(rover: Rover, measure: str) -> None:
         raise InputError("no such measure", element="measure", value=measure, cure=cure)
     missing = inapplicable(rover, [measure])
     if missing:
-        raise InputError(
-            f"{rover.name} cannot have it: {missing[measure]}", element="measure", value=measure
-        )
+        raise InputError(f"{rover.name} cannot have it: {missing[measure]}", element="measure", value=measure)
 
 
 def _try(survey: Survey) -> None:

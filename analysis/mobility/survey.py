@@ -59,7 +59,7 @@ class Survey:
         return Surveyor(self)
 
     def stand(self, x: float, y: float, yaw: float) -> tuple[int, float]:
-        """One case by the plain path: its outcome's number, and the measure's value where it stands, else NaN.
+        """One case by the plain path: its outcome's number; the measure's value where it stands, else NaN.
 
         Raises:
             SolverError: it failed in a way that no status describes; names the place.

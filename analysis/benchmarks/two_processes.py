@@ -1,0 +1,71 @@
+"""The same steady work by one process and by two at once, each started afresh (spawn)."""
+
+from __future__ import annotations
+
+import multiprocessing
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from multiprocessing.synchronize import Barrier
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rover_pin.analysis.benchmarks.clock import Spent, spent
+from rover_pin.analysis.benchmarks.compiled import ask, make
+from rover_pin.analysis.benchmarks.row import COMPILED, Row, rates
+from rover_pin.analysis.benchmarks.scene import Scene
+from rover_pin.compiled import OPEN
+
+if TYPE_CHECKING:
+    from multiprocessing.queues import Queue
+
+PATIENCE_S = 600.0
+Told = tuple[float, float, float, int]
+"""Begin and end on the wall (a clock that processes share), processor's seconds, cases left open."""
+
+
+def together(scene: Scene, processes: int, cases: int, turns: int) -> Row:
+    """Steady work: every process answers the same number of cases, `turns` calls of `cases`.
+
+    Start-up, compilation and the first call are before the clock starts, which all wait for.
+    """
+    context = multiprocessing.get_context("spawn")
+    barrier, results = context.Barrier(processes), context.Queue()
+    arguments = (scene, cases, turns, barrier, results)
+    workers = [context.Process(target=_work, args=arguments, daemon=True) for _ in range(processes)]
+    with _started(workers):
+        told: list[Told] = [results.get(timeout=PATIENCE_S) for _ in workers]
+    begin, end, cpu, open_cases = np.array(told).T
+    count = processes * cases * turns
+    time_spent = Spent(float(end.max() - begin.min()), float(cpu.sum()))
+    return Row(
+        "settle", scene.rover.name, scene.kind, scene.terrain.label, COMPILED,
+        processes=processes, to_plain_path=float(open_cases.sum() / count), **rates(count, time_spent),
+    )  # fmt: skip
+
+
+@contextmanager
+def _started(workers: list[Any]) -> Iterator[None]:
+    for worker in workers:
+        worker.start()
+    try:
+        yield
+    finally:
+        for worker in workers:
+            worker.join(timeout=10.0)
+            if worker.is_alive():
+                worker.terminate()
+
+
+def _work(scene: Scene, cases: int, turns: int, barrier: Barrier, results: Queue[Told]) -> None:
+    """In a process of its own."""
+    batch, places = make(scene), scene.places(cases)
+    ask(batch, places)
+    barrier.wait(timeout=PATIENCE_S)
+    begin = time.perf_counter()
+    left = 0
+    with spent() as timer:
+        for _ in range(turns):
+            left += int(np.sum(ask(batch, places).code == OPEN))
+    results.put((begin, time.perf_counter(), timer.spent.cpu, left))
