@@ -1,4 +1,4 @@
-"""The benchmark: every bundled robot, two grounds, every method there is, the same places, answers compared."""
+"""The benchmark: every bundled robot, two grounds, every method, the same places, answers compared."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
 
 BLOCK_CASES = 50_000
-"""About how many cases one call of the compiled path answers: enough to be quick, not too many to be small."""
+"""About how many cases one call of the compiled path answers: enough to be quick, and little memory."""
 
 Progress = Callable[[int, int], None]
 """Called with the number of cases finished and of all cases."""
@@ -102,13 +102,11 @@ def _survey(
     for name, value in (("headings", headings), ("every", every)):
         if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < 1:
             raise InputError("must be a whole number, at least 1", element=name, value=value)
-    if terrain.nodes is None:
+    if terrain.nodes is None or not terrain.bounded:
         cure = "give a height map's file, rough:SEED,RMS,HURST, or Terrain.from_grid"
         raise TerrainError("a mobility map needs the nodes of a grid", element=terrain.label, cure=cure)
-    if terrain.bounded:
-        terrain.require_room(
-            rover.wheel_span, f"{rover.name}, whose wheels are {rover.wheel_span:.3g} m apart"
-        )
+    span = rover.wheel_span
+    terrain.require_room(span, f"{rover.name}, whose wheels are {span:.3g} m apart")
     x, y = (nodes[::every] for nodes in terrain.nodes)
     yaw = 2.0 * np.pi * np.arange(headings) / headings
     survey = Survey(rover, terrain, x, y, yaw, measure, posture, gravity)

@@ -12,12 +12,12 @@ if TYPE_CHECKING:
 
 WORDS = (
     "settle: pose, loads, residuals; row: settle and every cheap measure; the best of several turns counts.",
-    "moderate and rough are random ground; rough has an rms of half the wheel's radius. Every method is asked",
-    "the same places of the same surface; agreement is the largest difference from the plain path's answers.",
-    "a second: on the wall, of the cases that the method itself answers; with plain: those that it leaves to",
-    "the plain path answered too; a cpu second: of the thread's processor, of all threads' where there are more.",
-    "mujoco: wheels as meshes, locked, on a height field sampled twice a spacing; noslip_iterations 5, impratio",
-    "10, implicitfast, steps of 4 ms; only drops that come to rest (every speed below 1e-4) are timed.",
+    "moderate and rough are random ground; rough has an rms of half the wheel's radius. Every method is",
+    "asked the same places of the same surface; agreement is the largest difference from the plain path.",
+    "a second: on the wall, of the cases that the method itself answers; with plain: those that it leaves",
+    "to the plain path answered too; a cpu second: of the processor, of all processes' where there are more.",
+    "mujoco: wheels as meshes, locked, on a height field sampled twice a spacing; noslip_iterations 5,",
+    "impratio 10, implicitfast, steps of 4 ms; drops that come to rest (every speed below 1e-4) are timed.",
 )
 
 

@@ -56,11 +56,8 @@ def print_mobility(data: xr.Dataset, seconds: float) -> None:
     line(f"sent to the plain path: {100 * data.attrs['to_plain_path'] / cases:.2g} %")
     if not bool((data["settled_share"] > 0).any()):
         return
-    table = new_table(
-        f"{data.attrs['measure']} [{value['units']}], {value['better']} is better, over the places",
-        "heading",
-        *(f"{share} %" for share in SHARES),
-    )
+    line(f"{data.attrs['measure']} [{value['units']}], {value['better']} is better, over the places")
+    table = new_table("", "heading", *(f"{share} %" for share in SHARES))
     for end in ENDS:
         table.add_row(end, *(figure(each) for each in _percentiles(data[end].values).values()))
     print_table(table)
