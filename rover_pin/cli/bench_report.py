@@ -10,10 +10,14 @@ from rover_pin.cli.output import line, new_table, print_table
 if TYPE_CHECKING:
     from rover_pin.analysis.benchmarks import Report, Row
 
+COLUMNS = (
+    "work", "method", "processes", "cases", "a second", "with plain", "a cpu second", "to plain",
+    "slowest ms", "agreement",
+)  # fmt: skip
 WORDS = (
     "settle: pose, loads, residuals; row: settle and every cheap measure; the best of several turns counts.",
-    "moderate and rough are random ground; rough has an rms of half the wheel's radius. Every method is",
-    "asked the same places of the same surface; agreement is the largest difference from the plain path.",
+    "moderate and rough are random squares of 20 m, nodes 0.05 m apart; rough has an rms of half the wheel's",
+    "radius. Every method is asked the same places; agreement is the largest difference from the plain path.",
     "a second: on the wall, of the cases that the method itself answers; with plain: those that it leaves",
     "to the plain path answered too; a cpu second: of the processor, of all processes' where there are more.",
     "mujoco: wheels as meshes, locked, on a height field sampled twice a spacing; noslip_iterations 5,",
@@ -31,6 +35,7 @@ def print_bench(report: Report) -> None:
     _print_growth("wheels", [row for row in grown if row.wheels is not None])
     _print_growth("map nodes", [row for row in grown if row.nodes is not None])
     _print_studies([row for row in grown if row.work == "study"])
+    line("")
     for words in WORDS:
         line(words)
     for why in report.left_out:
@@ -47,10 +52,8 @@ def _print_methods(rows: Sequence[Row]) -> None:
     for row in rows:
         scenes.setdefault((row.robot, row.terrain, row.ground), []).append(row)
     for (robot, terrain, ground), own in scenes.items():
-        table = new_table(
-            f"{robot} on {terrain} ground ({ground})", "work", "method", "processes", "cases", "a second",
-            "with plain", "a cpu second", "to plain", "slowest ms", "agreement", left=2,
-        )  # fmt: skip
+        line(f"\n{robot} on {terrain} ground ({ground})")
+        table = new_table("", *COLUMNS, left=2)
         for row in own:
             table.add_row(*_cells(row))
         print_table(table)
@@ -67,15 +70,8 @@ def _cells(row: Row) -> list[str]:
 def _print_growth(what: str, rows: Sequence[Row]) -> None:
     if not rows:
         return
-    table = new_table(
-        f"settles by {what}, moderate ground",
-        what,
-        "a second",
-        "a cpu second",
-        "to plain",
-        "agreement",
-        left=0,
-    )
+    line(f"\nsettles by {what}, {rows[0].terrain} ground")
+    table = new_table("", what, "a second", "a cpu second", "to plain", "agreement", left=0)
     for row in rows:
         size = str(row.wheels) if row.wheels is not None else f"{row.nodes} x {row.nodes}"
         table.add_row(
@@ -91,8 +87,8 @@ def _print_growth(what: str, rows: Sequence[Row]) -> None:
 def _print_studies(rows: Sequence[Row]) -> None:
     if not rows:
         return
-    title = f"studies of {rows[0].robot} on {rows[0].ground}, measure tip, one process, streamed to a file"
-    table = new_table(title, "cases", "a second", "a cpu second", "peak memory MB", "result MB", left=0)
+    line(f"\nstudies of {rows[0].robot} on {rows[0].ground}, measure tip, one process, streamed to a file")
+    table = new_table("", "cases", "a second", "a cpu second", "peak memory MB", "result MB", left=0)
     for row in rows:
         figures = ("" if value is None else f"{value:.0f}" for value in (row.peak_mb, row.disk_mb))
         table.add_row(_number(row.cases), _number(row.per_second), _number(row.per_cpu_second), *figures)
