@@ -60,15 +60,14 @@ def plot_mobility(dataset: xr.Dataset, rover: Rover | None = None, terrain: Terr
             axes.xaxis.set_major_locator(MaxNLocator(5))
             axes.yaxis.set_major_locator(MaxNLocator(5))
             axes.set(xlabel="x [m]", title=f"{name} heading", aspect="equal")
-            if terrain is not None:
-                _contours(axes, edges, terrain)
+            step = 0.0 if terrain is None else _contours(axes, edges, terrain)
         for axes in panels[: 2 if wide else 1]:
             axes.set_ylabel("y [m]")
         partly = (dataset["settled_share"].values > 0) & (dataset["settled_share"].values < 1)
         _mark(panels[0], dataset, partly)
         if rover is not None:
             _draw_rover(panels[1], rover, edges)
-        _legend(figure, bool(np.isnan(values["best"]).any()), bool(partly.any()))
+        _legend(figure, bool(np.isnan(values["best"]).any()), bool(partly.any()), step)
         title = title_of(str(dataset.attrs["measure"]), {"long_name": str(dataset.attrs["measure"])})
         bar = figure.colorbar(image, ax=list(panels), shrink=0.85, aspect=30, extend=_extend(both, norm))
         bar.set_label(f"{title} [{unit}], {better}er is better")
@@ -116,13 +115,17 @@ def _mark(axes: Axes, dataset: xr.Dataset, partly: Any) -> None:
         marks.set(edgecolor="0.95", linewidth=0.0)
 
 
-def _contours(axes: Axes, edges: tuple[float, float, float, float], terrain: Terrain) -> None:
+def _contours(axes: Axes, edges: tuple[float, float, float, float], terrain: Terrain) -> float:
+    """Lines of equal height; returns the step between them, m, or 0 where the ground is level."""
+    from matplotlib.ticker import MaxNLocator
+
     X, Y = np.meshgrid(np.linspace(*edges[:2], 240), np.linspace(*edges[2:], 240))
     heights = terrain.height(X, Y)
-    if float(np.ptp(heights)) > 0.0:
-        axes.contour(
-            X, Y, heights, levels=CONTOURS, colors="k", linewidths=0.3, linestyles="solid", alpha=0.5
-        )
+    if float(np.ptp(heights)) < 1e-9:
+        return 0.0
+    levels = MaxNLocator(CONTOURS).tick_values(float(heights.min()), float(heights.max()))
+    axes.contour(X, Y, heights, levels=levels, colors="k", linewidths=0.3, linestyles="solid", alpha=0.5)
+    return float(levels[1] - levels[0])
 
 
 def _draw_rover(axes: Axes, rover: Rover, edges: tuple[float, float, float, float]) -> None:
@@ -158,25 +161,22 @@ def _draw_rover(axes: Axes, rover: Rover, edges: tuple[float, float, float, floa
     )
 
 
-def _legend(figure: Figure, none: bool, partly: bool) -> None:
-    """What grey and dots mean, where they occur."""
+def _legend(figure: Figure, none: bool, partly: bool, step: float) -> None:
+    """What grey, dots and lines mean, where they occur."""
+    from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
-    shown_marks = []
+    marks: list[Any] = []
     if none:
-        shown_marks.append(Patch(**NO_ANSWER, label="no heading settles"))
+        marks.append(Patch(**NO_ANSWER, label="no heading settles"))
     if partly:
-        shown_marks.append(
-            Patch(
-                facecolor="w",
-                edgecolor="0.5",
-                linewidth=0.0,
-                hatch=IN_PART,
-                label="some headings do not settle",
-            )
-        )
-    if shown_marks:
-        figure.legend(handles=shown_marks, loc="outside lower center", ncols=2, frameon=False, fontsize=7)
+        dots = {"facecolor": "w", "edgecolor": "0.5", "linewidth": 0.0, "hatch": IN_PART}
+        marks.append(Patch(**dots, label="some headings do not settle"))
+    if step:
+        line = {"color": "0.3", "linewidth": 0.5}
+        marks.append(Line2D([], [], **line, label=f"heights of the ground, {step:.3g} m apart"))
+    if marks:
+        figure.legend(handles=marks, loc="outside lower center", ncols=3, frameon=False, fontsize=7)
 
 
 def _extend(values: Array, norm: Any) -> Any:
