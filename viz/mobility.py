@@ -173,8 +173,8 @@ def _legend(figure: Figure, none: bool, partly: bool, step: float) -> None:
         dots = {"facecolor": "w", "edgecolor": "0.5", "linewidth": 0.0, "hatch": IN_PART}
         marks.append(Patch(**dots, label="some headings do not settle"))
     if step:
-        line = {"color": "0.3", "linewidth": 0.5}
-        marks.append(Line2D([], [], **line, label=f"heights of the ground, {step:.3g} m apart"))
+        label = f"heights of the ground, {step:.3g} m apart"
+        marks.append(Line2D([], [], color="0.3", linewidth=0.5, label=label))
     if marks:
         figure.legend(handles=marks, loc="outside lower center", ncols=3, frameon=False, fontsize=7)
 
