@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-ROOMS = ("contact", "terrain", "statics")
+ROOMS = ("mechanism", "contact", "terrain", "statics", "stability", "stability/measures", "compiled")
 """Folders that hold formulas; one may be compiled into another."""
 
 
@@ -27,7 +27,7 @@ def discard_stale(package: Path) -> int:
     newest = max((path.stat().st_mtime_ns for path in sources if path.is_file()), default=0)
     removed = 0
     for folder in folders:
-        for compiled in folder.glob("__pycache__/*.nbc"):
+        for compiled in folder.glob("__pycache__/*.nb[ci]"):
             try:
                 if compiled.stat().st_mtime_ns < newest:
                     compiled.unlink()

@@ -11,7 +11,7 @@ from rover_pin.description.model import BASE_DOF
 from rover_pin.description.tree import JOINT_TYPES, MOVING, Element, Tree, child_of, parent_of
 from rover_pin.errors import nearest
 
-_COUNTS = {
+COUNTS = {
     ("origin", "xyz"): 3,
     ("origin", "rpy"): 3,
     ("axis", "xyz"): 3,
@@ -29,9 +29,10 @@ _COUNTS = {
     ("mimic", "multiplier"): 1,
     ("mimic", "offset"): 1,
 } | {("inertia", key): 1 for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
+"""How many numbers stand in an attribute, by element and attribute."""
 
 _RESERVED = {*BASE_DOF, "universe"}
-_ROUNDING = 1e-12  # kg m2 below zero that a mesh program may write
+ROUNDING = 1e-12  # kg m2 below zero that a mesh program may write
 _MAY_BE_INFINITE = {"limit"}
 
 
@@ -146,7 +147,7 @@ def _one_tree(tree: Tree) -> None:
 def _numbers(tree: Tree, top: Element) -> None:
     for element in top.iter():
         for key, text in element.attrib.items():
-            count = _COUNTS.get((element.tag, key))
+            count = COUNTS.get((element.tag, key))
             if count is None:
                 continue
             where = f"<{element.tag} {key}>"
@@ -184,7 +185,7 @@ def _inertia(tree: Tree, name: str, link: Element) -> None:
         raise tree.error("negative mass", f"link {name}", mass.get("value"), "give its mass in kg")
     found = link.find("inertial/inertia")
     for key in () if found is None else ("ixx", "iyy", "izz"):
-        if float(found.get(key, 0)) < -_ROUNDING:
+        if float(found.get(key, 0)) < -ROUNDING:
             raise tree.error(
                 f"negative moment of inertia {key}",
                 f"link {name}",

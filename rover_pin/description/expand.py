@@ -17,7 +17,7 @@ _TAG = re.compile(r"<xacro:\w")
 _MACRO = re.compile(r"<xacro:macro\b[^>]*\bname\s*=\s*[\"']([^\"']+)")
 
 
-class _Arguments(dict[str, str]):
+class Arguments(dict[str, str]):
     """Xacro's arguments; remembers which names the files asked for."""
 
     def __init__(self, given: Mapping[str, str]) -> None:
@@ -67,7 +67,8 @@ def expand(
     if path.suffix != ".xacro" and not _TAG.search(text):
         _refuse_undeclared(path, values, None, declared_in)
         return text
-    expanded, asked = _run(path, text, values, packages, notes, skip_missing_includes)
+    arguments = Arguments({name: written(value) for name, value in values.items()})
+    expanded, asked = run_xacro(path, text, arguments, packages, notes, skip_missing_includes)
     _refuse_undeclared(path, values, asked, declared_in)
     if "<link" not in expanded:
         macros = _MACRO.findall(text)
@@ -80,12 +81,16 @@ def expand(
     return expanded
 
 
-def _run(
-    path: Path, text: str, values: Mapping[str, float], packages: Packages, notes: Notes, skip: bool
+def run_xacro(
+    path: Path, text: str, arguments: Arguments, packages: Packages, notes: Notes, skip: bool
 ) -> tuple[str, set[str]]:
+    """The expanded text, and the arguments that the files asked for.
+
+    Raises:
+        DescriptionError: xacro refuses it.
+    """
     from xacrodoc import xacrodoc as engine
 
-    arguments = _Arguments({name: _written(value) for name, value in values.items()})
     said = io.StringIO()
     try:
         with _around_xacro(packages, notes, skip), contextlib.redirect_stderr(said):
@@ -103,7 +108,7 @@ def _run(
     return expanded, arguments.asked
 
 
-def _written(value: float) -> str:
+def written(value: float) -> str:
     """A whole number without a point, so that an expression may count with it."""
     return str(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)
 

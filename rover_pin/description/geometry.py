@@ -17,6 +17,8 @@ from rover_pin.numerics import Array, frozen
 
 SPACING = 0.05  # m between neighbouring points of the hull, at most
 
+_SIGNS = np.array([[x, y, z] for z in (-1.0, 1.0) for y in (-1.0, 1.0) for x in (-1.0, 1.0)])
+
 Kind = Literal["box", "cylinder", "sphere", "mesh"]
 
 
@@ -62,10 +64,18 @@ class BodyPoint:
 
 @dataclass(frozen=True)
 class Geometry:
-    """What is drawn, what bounds the robot, and what was left out."""
+    """What is drawn, what bounds the robot, and what was left out.
+
+    Attributes:
+        visuals: what a viewer draws.
+        hull: points of collision shapes, closely spaced.
+        around: corners of the boxes around the same shapes.
+        notes: what was left out.
+    """
 
     visuals: tuple[Visual, ...]
     hull: tuple[BodyPoint, ...]
+    around: tuple[BodyPoint, ...]
     notes: tuple[str, ...]
 
 
@@ -105,13 +115,16 @@ def read_geometry(
         )
     notes.many(missing, "mesh {name} is missing: not drawn", "{n} meshes are missing: not drawn ({names})")
     points: list[BodyPoint] = []
+    corners: list[BodyPoint] = []
     meshed = []
     for shape in _shapes(robot.links, "collisions", model, {}):
         if shape.link in without_hull:
             continue
         if shape.kind == "mesh":
             meshed.append(shape.link)
+            continue
         points.extend(_hull_points(shape))
+        corners.extend(_placed(shape, corners_around(shape.kind, np.array(shape.size))))
     notes.many(
         list(dict.fromkeys(meshed)),
         "link {name}: its collision mesh is not tested against the ground; "
@@ -119,7 +132,7 @@ def read_geometry(
         "collision meshes of {n} links are not tested against the ground ({names}); "
         "use boxes, cylinders, spheres or `belly`",
     )
-    return Geometry(tuple(visuals), tuple(points), notes.lines())
+    return Geometry(tuple(visuals), tuple(points), tuple(corners), notes.lines())
 
 
 def _structure(tree: Tree, notes: Notes) -> Any:
@@ -183,14 +196,31 @@ def _colour(material: Any, colours: dict[str, Any]) -> tuple[float, float, float
 
 def _hull_points(shape: _Shape) -> list[BodyPoint]:
     """Points of a shape no further apart than `SPACING`; a ball as such."""
-    if shape.kind == "mesh":
-        return []
     if shape.kind == "sphere":
-        local, radius = np.zeros((1, 3)), shape.size[0]
-    else:
-        local, radius = (_box(shape.size) if shape.kind == "box" else _cylinder(shape.size)), 0.0
+        return _placed(shape, np.zeros((1, 3)), shape.size[0])
+    return _placed(shape, _box(shape.size) if shape.kind == "box" else _cylinder(shape.size))
+
+
+def _placed(shape: _Shape, local: Array, radius: float = 0.0) -> list[BodyPoint]:
     turned = local @ shape.placement[:3, :3].T + shape.placement[:3, 3]
     return [BodyPoint(shape.link, shape.joint, frozen(p), radius) for p in turned]
+
+
+def corners_around(kind: str, size: Array) -> Array:
+    """(..., 8, 3) corners of the box around a shape, in its own axes.
+
+    Args:
+        kind: box, cylinder or sphere.
+        size: (..., k) as in `Visual.size` [m].
+    """
+    if kind == "box":
+        half = size / 2
+    elif kind == "cylinder":
+        half = np.stack([size[..., 0], size[..., 0], size[..., 1] / 2], axis=-1)
+    else:
+        half = np.repeat(size, 3, axis=-1)
+    corners: Array = half[..., None, :] * _SIGNS
+    return corners
 
 
 def _steps(length: float) -> int:

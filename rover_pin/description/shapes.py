@@ -19,8 +19,8 @@ from rover_pin.errors import InputError, SidecarError
 from rover_pin.mechanism.frames import find_frame
 from rover_pin.numerics import Array, frozen
 
-_PARALLEL = 1e-6  # sine between the wheel's axis and the joint's
-_ON_AXIS = 1e-5  # m from the wheel's centre to the joint's axis
+PARALLEL = 1e-6  # sine between the wheel's axis and the joint's
+ON_AXIS = 1e-5  # m from the wheel's centre to the joint's axis
 
 
 @dataclass(frozen=True)
@@ -197,5 +197,5 @@ class Placer:
 
 def _about(turning: Array, axis: Array, center: Array) -> bool:
     """Whether a joint at the origin turns the wheel about the wheel's own axis."""
-    parallel = np.linalg.norm(np.cross(turning, axis)) < _PARALLEL
-    return bool(parallel and np.linalg.norm(np.cross(turning, center)) < _ON_AXIS)
+    parallel = np.linalg.norm(np.cross(turning, axis)) < PARALLEL
+    return bool(parallel and np.linalg.norm(np.cross(turning, center)) < ON_AXIS)

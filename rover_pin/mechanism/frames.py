@@ -70,9 +70,11 @@ class BodyFrame:
         axes: Array = at.rotation(self.joint) @ self.rotation
         return axes
 
-    def origin_jacobian(self, at: Kinematics) -> Array:
-        """(3, nv) velocity of the origin, world axes."""
-        return at.point_jacobian(self.joint, self.origin(at))
+    def jacobian(self, at: Kinematics) -> Array:
+        """(6, nv) velocity of the origin, then angular velocity, world axes."""
+        return np.concatenate(
+            [at.point_jacobian(self.joint, self.origin(at)), at.angular_jacobian(self.joint)]
+        )
 
 
 def resolve_pair(

@@ -9,6 +9,7 @@ import numpy as np
 import pinocchio as pin
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from rover_pin.mechanism.closure import SIZES, close
 from rover_pin.mechanism.frames import BodyFrame, FrameSpec, resolve_pair
 from rover_pin.mechanism.kinematics import Kinematics
 from rover_pin.numerics import Array, frozen
@@ -16,7 +17,8 @@ from rover_pin.numerics import Array, frozen
 LoopType = Literal["ball", "hinge", "planar", "weld", "distance"]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 
-_SIZES: dict[str, int] = {"ball": 3, "hinge": 5, "planar": 2, "weld": 6, "distance": 1}
+KINDS: tuple[LoopType, ...] = ("ball", "hinge", "planar", "weld", "distance")
+"""Types in the order of `rover_pin.mechanism.closure`."""
 
 
 class LoopSpec(BaseModel):
@@ -71,13 +73,10 @@ class LoopSpec(BaseModel):
 
 @dataclass(frozen=True)
 class Loop:
-    """Two frames held together; e = origin of the second minus that of the first.
+    """Two frames held together; `rover_pin.mechanism.closure.close` has the rows.
 
-    Rows: ball e (world axes); planar t1.e and t2.e, with t1, t2 across the axis in the first frame, so that a
-    linkage that moves in a plane is closed without redundant rows; hinge the ball's rows and a.t1', a.t2'
-    with a the axis in the first frame and t1', t2' across the same axis in the second; weld e and twice the
-    vector part of the quaternion of R1' R2 (2 sin(angle / 2) along the axis, so that a half turn is open);
-    distance |e| - length.
+    A planar loop has two, so that a linkage that moves in a plane is closed without redundant rows; a weld's
+    rows of orientation are 2 sin(angle / 2) along the axis, so that a half turn is open.
 
     Attributes:
         name: as in the sidecar.
@@ -99,51 +98,34 @@ class Loop:
     @property
     def size(self) -> int:
         """Number of rows."""
-        return _SIZES[self.type]
+        return SIZES[KINDS.index(self.type)]
 
     def residual(self, at: Kinematics) -> Array:
         """(size,) [m; rad for rows of orientation]."""
-        apart = self.second.origin(at) - self.first.origin(at)
-        if self.type == "ball":
-            return apart
-        if self.type == "distance":
-            return np.array([np.linalg.norm(apart) - self.length])
-        if self.type == "planar":
-            sides: Array = (self.first.axes(at) @ self.across[:, :2]).T @ apart
-            return sides
-        if self.type == "hinge":
-            axis = self.first.axes(at) @ self.across[:, 2]
-            return np.concatenate([apart, (self.second.axes(at) @ self.across[:, :2]).T @ axis])
-        return np.concatenate([apart, 2.0 * self._turned(at)[1:]])
-
-    def _turned(self, at: Kinematics) -> Array:
-        """(4,) quaternion (w >= 0, x, y, z) of the second frame in the first."""
-        x, y, z, w = pin.Quaternion(self.first.axes(at).T @ self.second.axes(at)).coeffs()
-        return np.array([w, x, y, z]) if w >= 0.0 else -np.array([w, x, y, z])
+        return self._rows(at)[0]
 
     def jacobian(self, at: Kinematics) -> Array:
         """(size, nv)."""
-        apart = self.second.origin(at) - self.first.origin(at)
-        moving: Array = self.second.origin_jacobian(at) - self.first.origin_jacobian(at)
-        if self.type == "ball":
-            return moving
-        if self.type == "distance":
-            length = max(float(np.linalg.norm(apart)), 1e-12)
-            return (apart / length @ moving)[None, :]
-        turn_first = at.angular_jacobian(self.first.joint)
-        if self.type == "planar":
-            sides = (self.first.axes(at) @ self.across[:, :2]).T
-            planar: Array = sides @ moving + np.cross(sides, apart) @ turn_first
-            return planar
-        turn: Array = at.angular_jacobian(self.second.joint) - turn_first
-        if self.type == "hinge":
-            axis = self.first.axes(at) @ self.across[:, 2]
-            sides = (self.second.axes(at) @ self.across[:, :2]).T
-            return np.vstack([moving, np.cross(sides, axis) @ turn])
-        w, x, y, z = self._turned(at)
-        # quaternion' = quaternion * (0, angular velocity in the second frame) / 2
-        lever = np.array([[w, -z, y], [z, w, -x], [-y, x, w]])
-        return np.vstack([moving, lever @ self.second.axes(at).T @ turn])
+        return self._rows(at)[1]
+
+    def _rows(self, at: Kinematics) -> tuple[Array, Array]:
+        """Residual and Jacobian."""
+        residual, jacobian = np.empty(self.size), np.empty((self.size, at.model.nv))
+        first, second = self.first, self.second
+        close(
+            KINDS.index(self.type),
+            self.across,
+            self.length,
+            first.origin(at),
+            first.axes(at),
+            first.jacobian(at),
+            second.origin(at),
+            second.axes(at),
+            second.jacobian(at),
+            residual,
+            jacobian,
+        )
+        return residual, jacobian
 
 
 def _carried(first: BodyFrame, second: BodyFrame, zero: Kinematics) -> BodyFrame:

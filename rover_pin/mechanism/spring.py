@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
@@ -11,6 +10,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from rover_pin.errors import MechanismError, SidecarError, nearest
+from rover_pin.mechanism.closure import push, strut, torque
 from rover_pin.mechanism.frames import BodyFrame, FrameSpec, resolve_pair
 from rover_pin.mechanism.kinematics import Kinematics
 from rover_pin.numerics import Array
@@ -101,7 +101,7 @@ class JointSpring:
 
     def effort(self, at: Kinematics) -> float:
         """The joint's torque [N m] or force [N], along +q."""
-        return self.preload - self.stiffness * (float(at.q[self.column]) - self.rest)
+        return torque(float(at.q[self.column]), self.stiffness, self.rest, self.preload)
 
     def force(self, at: Kinematics) -> Array:
         """(nv,) generalised force."""
@@ -137,7 +137,17 @@ class FrameSpring:
         Raises:
             MechanismError: the ends coincide, so that the spring has no direction.
         """
-        length = math.dist(self.first.origin(at), self.second.origin(at))
+        return self._span(at)[0]
+
+    def length_gradient(self, at: Kinematics) -> Array:
+        """(nv,) d length / dq [m/rad or m/m]."""
+        return self._span(at)[1]
+
+    def _span(self, at: Kinematics) -> tuple[float, Array]:
+        """Length and its gradient."""
+        gradient = np.empty(at.model.nv)
+        first, second = self.first, self.second
+        length = strut(first.origin(at), first.jacobian(at), second.origin(at), second.jacobian(at), gradient)
         if length < 1e-9:
             raise MechanismError(
                 "the spring's ends coincide, so it pushes in no direction",
@@ -145,17 +155,11 @@ class FrameSpring:
                 value=length,
                 cure="move one of its frames",
             )
-        return length
-
-    def length_gradient(self, at: Kinematics) -> Array:
-        """(nv,) d length / dq [m/rad or m/m]."""
-        along = (self.second.origin(at) - self.first.origin(at)) / self.length(at)
-        gradient: Array = along @ (self.second.origin_jacobian(at) - self.first.origin_jacobian(at))
-        return gradient
+        return length, gradient
 
     def effort(self, at: Kinematics) -> float:
         """The spring's push [N]."""
-        return self.preload + self.stiffness * (self.length_max - self.length(at))
+        return push(self.length(at), self.stiffness, self.preload, self.length_max)
 
     def energy(self, at: Kinematics) -> float:
         """preload d + k d^2 / 2 with d = length_max - length [J]."""

@@ -6,14 +6,10 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from rover_pin.errors import InputError, OffMapError, PostureError
-from rover_pin.mechanism.lock import engage
-from rover_pin.statics.clearance_goal import posture_for_clearance
+from rover_pin.errors import InputError, OffMapError
+from rover_pin.statics.asked import held_values
 from rover_pin.statics.follow import follow, straight
 from rover_pin.statics.ground import failed, off_map
-from rover_pin.statics.held import BASE
 from rover_pin.statics.level import on_level
 from rover_pin.statics.report import report
 from rover_pin.statics.stance import Stance, Status
@@ -64,7 +60,7 @@ def settle(
         OffMapError: x, y is not on the map.
     """
     _check(rover, terrain, x, y, yaw, gravity)
-    values, locked = _posture(rover, posture, dict(joints or {}), tuple(locks), gravity)
+    values, locked = held_values(rover, posture, dict(joints or {}), tuple(locks), gravity)
     problem, footing = on_level(rover, values, locked, gravity)
     problem = problem.moved(x, y, yaw)
     level = float(terrain.height(x, y))
@@ -127,64 +123,3 @@ def _check_size(rover: Rover, terrain: Terrain) -> None:
             value=f"{side:.3g} m",
             cure="give a larger map, or check its spacing",
         )
-
-
-def _posture(
-    rover: Rover,
-    posture: str | Mapping[str, float] | None,
-    joints: dict[str, float],
-    locks: tuple[str, ...],
-    gravity: float,
-) -> tuple[dict[str, float], tuple[str, ...]]:
-    """Every joint's value, and the passive joints that are locked."""
-    values = _at_zero(rover)
-    given = rover.resolve_posture(joints)
-    locked = {name for name in given if name not in rover.actuated and name not in _drives(rover)}
-    if isinstance(posture, Mapping) and "clearance" in posture:
-        if len(posture) > 1:
-            raise PostureError(
-                "a clearance goal stands alone",
-                element="posture",
-                value=", ".join(posture),
-                cure="give other joints by `joints`",
-            )
-        base = values | rover.resolve_posture(None) | given
-        named = posture_for_clearance(
-            rover,
-            _metres(posture["clearance"]),
-            base,
-            tuple(given),
-            _engaged(rover, locks, base, locked),
-            gravity,
-        )
-    else:
-        named = rover.resolve_posture(posture)
-    values |= named | given
-    return values, _engaged(rover, locks, values, locked)
-
-
-def _metres(goal: object) -> float:
-    """A clearance goal as a number."""
-    try:
-        return float(goal)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        raise PostureError(
-            "not a finite number", element="clearance", value=goal, cure="give metres"
-        ) from None
-
-
-def _engaged(
-    rover: Rover, locks: tuple[str, ...], values: Mapping[str, float], locked: set[str]
-) -> tuple[str, ...]:
-    engaged = {lock.joint for lock in engage(locks, rover.lockable, values, file=rover.sidecar_path)}
-    return tuple(sorted(engaged | locked))
-
-
-def _at_zero(rover: Rover) -> dict[str, float]:
-    """Every joint at 0, or at the limit nearest to it."""
-    nearest = np.clip(0.0, rover.lower, rover.upper)
-    return dict(zip(rover.joints, nearest[BASE:].tolist(), strict=True))
-
-
-def _drives(rover: Rover) -> set[str]:
-    return {wheel.drive for wheel in rover.wheels if wheel.drive is not None}

@@ -34,6 +34,16 @@ def surface(kind: int, table: Array, params: Array, x: float, y: float) -> Six:
 
     Finite for every finite point; NaN for a point that is not a number.
     """
+    if kind != CALLABLE or math.isnan(x) or math.isnan(y):
+        return tabled(kind, table, params, x, y)
+    offset, scale = params[0], params[1]
+    h, hx, hy, hxx, hxy, hyy = called(params[2], x, y)
+    return offset + scale * h, scale * hx, scale * hy, scale * hxx, scale * hxy, scale * hyy
+
+
+@inlined
+def tabled(kind: int, table: Array, params: Array, x: float, y: float) -> Six:
+    """`surface` of every kind that is no Python function: the one that compiled batches carry."""
     offset, scale = params[0], params[1]
     if math.isnan(x) or math.isnan(y):
         return math.nan, math.nan, math.nan, math.nan, math.nan, math.nan
@@ -42,10 +52,8 @@ def surface(kind: int, table: Array, params: Array, x: float, y: float) -> Six:
         return offset + scale * h, scale * hx, scale * hy, 0.0, 0.0, 0.0
     if kind == SMOOTH:
         h, hx, hy, hxx, hxy, hyy = smooth(table, params, x, y)
-    elif kind == LINEAR:
-        h, hx, hy, hxx, hxy, hyy = linear(table, params, x, y)
     else:
-        h, hx, hy, hxx, hxy, hyy = called(params[2], x, y)
+        h, hx, hy, hxx, hxy, hyy = linear(table, params, x, y)
     return offset + scale * h, scale * hx, scale * hy, scale * hxx, scale * hxy, scale * hyy
 
 

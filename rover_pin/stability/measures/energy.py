@@ -2,22 +2,47 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
 
-from rover_pin.numerics import Array, formula
+from rover_pin.numerics import Array, formula, inlined
 from rover_pin.stability.margin import Margin
 from rover_pin.stability.measure import Measure, Standing
 
 
+@inlined
+def energy_height(
+    ax: float, ay: float, az: float, bx: float, by: float, bz: float, cx: float, cy: float, cz: float
+) -> float:
+    """h = |R| (1 - cos theta) cos psi [m]: how far the point c rises before it tips over the edge a-b.
+
+    R goes from the edge to c at right angles, psi is the edge's inclination, theta the angle about the edge
+    from R to the plane through the edge that holds the vertical. Negative where c is past the edge: by how
+    much it has fallen.
+    """
+    ex, ey, ez = bx - ax, by - ay, bz - az
+    unit = 1.0 / math.sqrt(ex * ex + ey * ey + ez * ez)
+    ex, ey, ez = ex * unit, ey * unit, ez * unit
+    rx, ry, rz = cx - ax, cy - ay, cz - az
+    along = rx * ex + ry * ey + rz * ez
+    rx, ry, rz = rx - along * ex, ry - along * ey, rz - along * ez
+    level = math.sqrt(ex * ex + ey * ey)
+    # (1 - cos theta) from the sideways part: exact digits near the edge too
+    sideways = (ex * ry - ey * rx) / level
+    length = math.sqrt(rx * rx + ry * ry + rz * rz)
+    upward = rz / level
+    rise = sideways * sideways / (length + upward) if upward > 0.0 else length - upward
+    sign = 0.0
+    if sideways != 0.0:
+        sign = 1.0 if sideways > 0.0 else -1.0
+    return sign * rise * level
+
+
 @formula
 def energy_heights(starts: Array, ends: Array, com: Array) -> Array:
-    """h = |R| (1 - cos theta) cos psi per edge: how far the centre of mass rises before it tips over.
-
-    R goes from the edge to the centre of mass at right angles, psi is the edge's inclination, theta the
-    angle about the edge from R to the plane through the edge that holds the vertical. Negative where the
-    centre of mass is past the edge: by how much it has fallen.
+    """`energy_height` of every edge.
 
     Args:
         starts: (n, 3) m, corners counterclockwise from above.
@@ -29,21 +54,8 @@ def energy_heights(starts: Array, ends: Array, com: Array) -> Array:
     """
     out = np.empty(starts.shape[0])
     for i in range(starts.shape[0]):
-        e = ends[i] - starts[i]
-        e = e / np.sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2])
-        r = com - starts[i]
-        along = r[0] * e[0] + r[1] * e[1] + r[2] * e[2]
-        r = r - along * e
-        level = np.sqrt(e[0] * e[0] + e[1] * e[1])
-        # (1 - cos theta) from the sideways part: exact digits near the edge too
-        sideways = (e[0] * r[1] - e[1] * r[0]) / level
-        length = np.sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2])
-        upward = r[2] / level
-        if upward > 0.0:
-            rise = sideways * sideways / (length + upward)
-        else:
-            rise = length - upward
-        out[i] = np.sign(sideways) * rise * level
+        a, b = starts[i], ends[i]
+        out[i] = energy_height(a[0], a[1], a[2], b[0], b[1], b[2], com[0], com[1], com[2])
     return out
 
 

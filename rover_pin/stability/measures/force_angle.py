@@ -2,19 +2,43 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
-from rover_pin.numerics import Array, formula
+from rover_pin.numerics import Array, formula, inlined
 from rover_pin.stability.margin import Margin
 from rover_pin.stability.measure import Measure, Standing
 
 
+@inlined
+def force_angle(
+    ax: float, ay: float, az: float, bx: float, by: float, bz: float, cx: float, cy: float, cz: float,
+    weight: float,
+) -> float:  # fmt: skip
+    """theta |d| |f_e| [N m] of the edge a-b, for a weight [N] at c.
+
+    With e the edge's direction: l = (I - ee')(a - c), f_e = (I - ee') f, f the weight, theta the angle from
+    f_e to l about e, positive inside, d = -l + (l . f^) f^ with f^ = f_e / |f_e|.
+    """
+    ex, ey, ez = bx - ax, by - ay, bz - az
+    unit = 1.0 / math.sqrt(ex * ex + ey * ey + ez * ez)
+    ex, ey, ez = ex * unit, ey * unit, ez * unit
+    lx, ly, lz = ax - cx, ay - cy, az - cz
+    along = lx * ex + ly * ey + lz * ez
+    lx, ly, lz = lx - along * ex, ly - along * ey, lz - along * ez
+    fx, fy, fz = ez * ex, ez * ey, ez * ez - 1.0
+    pull = math.sqrt(fx * fx + fy * fy + fz * fz)
+    fx, fy, fz = fx / pull, fy / pull, fz / pull
+    cross = ex * (ly * fz - lz * fy) + ey * (lz * fx - lx * fz) + ez * (lx * fy - ly * fx)
+    dot = lx * fx + ly * fy + lz * fz
+    # |d| is the part of l across f, which is |l x f|
+    return math.atan2(cross, dot) * abs(cross) * pull * weight
+
+
 @formula
 def force_angles(starts: Array, ends: Array, com: Array, weight: float) -> Array:
-    """theta |d| |f_e| per edge.
-
-    With e the edge's direction: l = (I - ee')(start - com), f_e = (I - ee') f, f the weight,
-    theta the angle from f_e to l about e, positive inside, d = -l + (l . f^) f^ with f^ = f_e / |f_e|.
+    """`force_angle` of every edge.
 
     Args:
         starts: (n, 3) m, corners counterclockwise from above.
@@ -27,23 +51,8 @@ def force_angles(starts: Array, ends: Array, com: Array, weight: float) -> Array
     """
     out = np.empty(starts.shape[0])
     for i in range(starts.shape[0]):
-        e = ends[i] - starts[i]
-        e = e / np.sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2])
-        l = starts[i] - com  # noqa: E741
-        along = l[0] * e[0] + l[1] * e[1] + l[2] * e[2]
-        l = l - along * e  # noqa: E741
-        f = e[2] * e
-        f[2] -= 1.0
-        pull = np.sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2])
-        f = f / pull
-        cross = (
-            e[0] * (l[1] * f[2] - l[2] * f[1])
-            + e[1] * (l[2] * f[0] - l[0] * f[2])
-            + e[2] * (l[0] * f[1] - l[1] * f[0])
-        )
-        dot = l[0] * f[0] + l[1] * f[1] + l[2] * f[2]
-        # |d| is the part of l across f, which is |l x f|
-        out[i] = np.arctan2(cross, dot) * np.abs(cross) * pull * weight
+        a, b = starts[i], ends[i]
+        out[i] = force_angle(a[0], a[1], a[2], b[0], b[1], b[2], com[0], com[1], com[2], weight)
     return out
 
 

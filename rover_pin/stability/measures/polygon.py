@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
-from rover_pin.numerics import Array, formula
+from rover_pin.numerics import Array, formula, inlined
 from rover_pin.stability.margin import Margin
 from rover_pin.stability.measure import Measure, Standing
+
+
+@inlined
+def edge_distance(ax: float, ay: float, bx: float, by: float, x: float, y: float) -> float:
+    """Distance [m] of (x, y) from the line a-b in the plane across gravity, positive to the left of it."""
+    ex, ey = bx - ax, by - ay
+    return (ex * (y - ay) - ey * (x - ax)) / math.hypot(ex, ey)
 
 
 @formula
@@ -25,8 +34,7 @@ def edge_distances(starts: Array, ends: Array, point: Array) -> Array:
     """
     out = np.empty(starts.shape[0])
     for i in range(starts.shape[0]):
-        ex, ey = ends[i, 0] - starts[i, 0], ends[i, 1] - starts[i, 1]
-        out[i] = (ex * (point[1] - starts[i, 1]) - ey * (point[0] - starts[i, 0])) / np.hypot(ex, ey)
+        out[i] = edge_distance(starts[i, 0], starts[i, 1], ends[i, 0], ends[i, 1], point[0], point[1])
     return out
 
 

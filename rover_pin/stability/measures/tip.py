@@ -2,18 +2,34 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
-from rover_pin.numerics import Array, formula
+from rover_pin.numerics import Array, formula, inlined
 from rover_pin.stability.margin import Margin
 from rover_pin.stability.measure import Measure, Standing
 
 
+@inlined
+def tip_angle(
+    ax: float, ay: float, az: float, bx: float, by: float, bz: float, cx: float, cy: float, cz: float
+) -> float:
+    """Angle [rad] by which the ground may tilt about the edge a-b before the point c stands over it.
+
+    atan2(distance to the edge, height over the point of its line beside c), both as gravity sees them.
+    """
+    ex, ey, ez = bx - ax, by - ay, bz - az
+    rx, ry = cx - ax, cy - ay
+    length = math.hypot(ex, ey)
+    distance = (ex * ry - ey * rx) / length
+    height = cz - az - ez * (ex * rx + ey * ry) / (length * length)
+    return math.atan2(distance, height)
+
+
 @formula
 def tip_angles(starts: Array, ends: Array, com: Array) -> Array:
-    """atan2(distance to the edge, height over the edge), both as gravity sees them; positive inside.
-
-    The height is that over the point of the edge's line beside the centre of mass.
+    """`tip_angle` of every edge, positive inside.
 
     Args:
         starts: (n, 3) m, corners counterclockwise from above.
@@ -25,12 +41,8 @@ def tip_angles(starts: Array, ends: Array, com: Array) -> Array:
     """
     out = np.empty(starts.shape[0])
     for i in range(starts.shape[0]):
-        ex, ey, ez = ends[i, 0] - starts[i, 0], ends[i, 1] - starts[i, 1], ends[i, 2] - starts[i, 2]
-        cx, cy = com[0] - starts[i, 0], com[1] - starts[i, 1]
-        length = np.hypot(ex, ey)
-        distance = (ex * cy - ey * cx) / length
-        height = com[2] - starts[i, 2] - ez * (ex * cx + ey * cy) / (length * length)
-        out[i] = np.arctan2(distance, height)
+        a, b = starts[i], ends[i]
+        out[i] = tip_angle(a[0], a[1], a[2], b[0], b[1], b[2], com[0], com[1], com[2])
     return out
 
 

@@ -1,0 +1,219 @@
+"""Batch: many cases of one rover on one terrain, answered by compiled loops."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rover_pin.compiled.answers import COMPILED_MEASURES, Answers, answers_of, blank
+from rover_pin.compiled.designs import Designs
+from rover_pin.compiled.ground import MOST_REACHES, GroundArrays, ground_of
+from rover_pin.compiled.groups import Groups, as_loaded, outline_radii, varied
+from rover_pin.compiled.kernel import Out, settle_all
+from rover_pin.compiled.machine import Machine, machine_of
+from rover_pin.compiled.posed import Integers
+from rover_pin.compiled.search import contact_search
+from rover_pin.compiled.template import Posture, Template, template_of
+from rover_pin.errors import InputError, nearest
+from rover_pin.numerics import Array
+from rover_pin.terrain import Terrain
+from rover_pin.terrain.surface import CALLABLE
+
+if TYPE_CHECKING:
+    from rover_pin.rover import Rover
+
+HOVER = 1.25
+"""Sizes of shapes that the ground's bounds are for, over their own: one that hovers is as one grown."""
+
+ROOM = 1.5
+"""Outlines that the ground's bounds are for, over that of the rover as loaded: designs may be larger."""
+
+
+class Batch:
+    """Many cases of one rover on one terrain.
+
+    The same answers as `rover_pin.settle`, to 1e-8 m, 1e-8 rad and 1e-5 N; a case that the kernels cannot
+    finish is left open for it. An answer depends on its case alone: not on the others, their number or order.
+
+    Args:
+        rover: what stands.
+        terrain: what it stands on.
+        gravity: m/s2.
+        locks: passive joints that are locked.
+        measures: of COMPILED_MEASURES.
+
+    Attributes:
+        refusal: why the kernels cannot serve this rover or terrain, so that every case is left open; else "".
+
+    Raises:
+        InputError: a measure that the kernels do not have.
+    """
+
+    def __init__(
+        self,
+        rover: Rover,
+        terrain: Terrain,
+        *,
+        gravity: float = 9.81,
+        locks: Sequence[str] = (),
+        measures: Sequence[str] = (),
+    ) -> None:
+        for name in measures:
+            if name not in COMPILED_MEASURES:
+                cure = nearest(name, COMPILED_MEASURES)
+                raise InputError("is no compiled measure", element="measures", value=name, cure=cure)
+        self.rover = rover
+        self.terrain = terrain
+        self.gravity = gravity
+        self.locks = tuple(locks)
+        self.measures = tuple(measures)
+        self.refusal = _refusal(rover, terrain)
+        self._templates: dict[object, Template | None] = {}
+        self._single: dict[object, Groups] = {}
+        self._designs: dict[tuple[str, ...], Designs] = {}
+
+    def answer(
+        self,
+        x: Array,
+        y: Array,
+        yaw: Array,
+        *,
+        postures: Sequence[Posture] = (None,),
+        posture: Integers | None = None,
+        joints: Mapping[str, Array] | None = None,
+        parameters: Mapping[str, Array] | None = None,
+    ) -> Answers:
+        """Answer n cases.
+
+        Args:
+            x: (n,) m.
+            y: (n,) m.
+            yaw: (n,) rad.
+            postures: what `settle` takes.
+            posture: (n,) index into `postures`; 0 where silent.
+            joints: (n,) values of further joints, rad or m; a passive joint given here is locked there.
+            parameters: (n,) values of declared parameters.
+        """
+        x, y, yaw = (np.ascontiguousarray(values, dtype=np.float64) for values in (x, y, yaw))
+        given = [
+            {name: np.asarray(values, dtype=np.float64) for name, values in (each or {}).items()}
+            for each in (joints, parameters)
+        ]
+        out = blank(self.rover, len(x), bool(self.measures))
+        joint_rad = np.full((len(x), len(self.rover.joints)), np.nan)
+        which = np.zeros(len(x), dtype=np.int64) if posture is None else np.asarray(posture)
+        links: tuple[str, ...] = ()
+        for k, each in enumerate(postures if not self.refusal else ()):
+            mine = np.flatnonzero(which == k)
+            template = self._template(each, tuple(given[0]), bool(given[1]))
+            if template is None or not len(mine):
+                continue
+            links = tuple(template.problem.underside.links)
+            held, designs = ({name: v[mine] for name, v in part.items()} for part in given)
+            groups, index = self._groups(each, template, held, designs, len(mine))
+            part = self._settle(groups, index, x[mine], y[mine], yaw[mine])
+            joint_rad[mine] = groups.pose.joints(index, part.z)
+            for whole, some in zip(out, part, strict=True):
+                if len(whole):
+                    whole[mine] = some[:, :3] if some is part.z else some
+        return answers_of(self.rover, self.measures, out, joint_rad, links)
+
+    def _settle(self, groups: Groups, index: Integers, x: Array, y: Array, yaw: Array) -> Out:
+        free = int(groups.pose.records["n_free"][0])
+        out = blank(self.rover, len(x), bool(self.measures), free)
+        settle_all(
+            groups.pose.records, groups.scratch, *self._ground, groups.skin, contact_search(), index, x, y, yaw, out
+        )  # fmt: skip
+        return out
+
+    def _template(self, posture: Posture, joints: tuple[str, ...], designs: bool) -> Template | None:
+        key = (_name(posture), joints, designs)
+        if key not in self._templates:
+            self._templates[key] = template_of(
+                self.rover, posture, joints, self.locks, self.gravity, designs=designs
+            )
+        return self._templates[key]
+
+    def _groups(
+        self,
+        posture: Posture,
+        template: Template,
+        joints: Mapping[str, Array],
+        parameters: Mapping[str, Array],
+        count: int,
+    ) -> tuple[Groups, Integers]:
+        """Groups, and the group of each case."""
+        sizes = np.array(self._sizes)
+        if not joints and not parameters:
+            key = _name(posture)
+            if key not in self._single:
+                self._single[key] = as_loaded(self.rover, self._machine, template, sizes, self._outline_reach)
+            return self._single[key], np.zeros(count, dtype=np.int64)
+        machine, valid = self._machine, np.ones(count, dtype=np.bool_)
+        if parameters:
+            machine, valid = self._made(parameters, count)
+        values = np.tile(template.values, (count, 1))
+        for name, column in joints.items():
+            values[:, self.rover.column[name]] = column
+        groups = varied(self.rover, machine, template, values, sizes, self._outline_reach, self._flat)
+        groups.pose.records["usable"] &= valid
+        return groups, np.arange(count)
+
+    def _made(self, parameters: Mapping[str, Array], count: int) -> tuple[Machine, Array]:
+        """Designs, and which of them can be had without their files."""
+        names = tuple(parameters)
+        if names not in self._designs:
+            self._designs[names] = Designs(self.rover, names)
+        designs = self._designs[names]
+        if designs.refusal:
+            return self._machine, np.zeros(count, dtype=np.bool_)
+        return designs.machines(parameters)
+
+    @cached_property
+    def _machine(self) -> Machine:
+        return machine_of(self.rover)
+
+    @cached_property
+    def _sizes(self) -> tuple[float, ...]:
+        """Distinct sizes of the shapes, m, ascending."""
+        return tuple(sorted({shape.ring + shape.tread for shape in self.rover.shapes}))
+
+    @cached_property
+    def _outline_reach(self) -> float:
+        radii = outline_radii(self._machine.outline_joints, self._machine.outline)
+        return ROOM * float(np.max(radii, initial=1e-3))
+
+    @cached_property
+    def _ground(self) -> GroundArrays:
+        return ground_of(self.terrain, self._reaches)
+
+    @cached_property
+    def _flat(self) -> GroundArrays:
+        return ground_of(Terrain.flat(), self._reaches)
+
+    @cached_property
+    def _reaches(self) -> tuple[float, ...]:
+        return (*(HOVER * size for size in self._sizes), self._outline_reach)
+
+
+def _name(posture: Posture) -> object:
+    """A posture as a key."""
+    return posture if posture is None or isinstance(posture, str) else tuple(sorted(posture.items()))
+
+
+def _refusal(rover: Rover, terrain: Terrain) -> str:
+    if terrain.kind == CALLABLE:
+        return "the terrain is a Python function"
+    if not rover.shapes:
+        return "nothing of this robot touches the ground"
+    if rover.tracks:
+        return "it has tracks"
+    if len({shape.ring + shape.tread for shape in rover.shapes}) >= MOST_REACHES:
+        return f"its shapes have more than {MOST_REACHES - 1} sizes"
+    xmin, xmax, ymin, ymax = terrain.extent
+    if min(xmax - xmin, ymax - ymin) < rover.wheel_span:
+        return "the map is smaller than the rover"
+    return ""

@@ -1,0 +1,110 @@
+"""Newton straight to the ground on a set of supports, the twin of `rover_pin.statics.newton.land`."""
+
+from __future__ import annotations
+
+import math
+
+from rover_pin.compiled.elastic import elastic_system
+from rover_pin.compiled.ground import Ground
+from rover_pin.compiled.linear import eliminate
+from rover_pin.compiled.posed import Posed
+from rover_pin.compiled.state import follow_contact, loop_rows, motion_row, stop_rows, strut_rows
+from rover_pin.compiled.walk import walk
+from rover_pin.compiled.work import Work
+from rover_pin.numerics import Array, formula, inlined
+
+ITERATIONS = 12
+STEP = 1e-7
+"""Share of the span, or rad: Newton squares its error, so the step that is this small is the last."""
+
+REACH = 0.4
+"""Farthest landing, as a share of the wheels' span and in rad, as on the plain path."""
+
+
+@inlined
+def newton_step(p: Posed, w: Work, z: Array, cy: float, sy: float) -> float:
+    """Step of the free coordinates in `w.right` that closes gaps of active rows, and loops.
+
+    The frames and the contacts of active shapes are at z.
+
+    Returns:
+        Sign of the determinant, 0 where there is no step.
+    """
+    shapes, n, count = p.n_shapes, p.n_free, p.n_active
+    for i in range(count):
+        if p.active[i] < shapes:
+            motion_row(p, w, cy, sy, p.active[i])
+    if p.n_stops > 0:
+        stop_rows(p, w, z)
+    if p.n_struts > 0:
+        w.load[:] = 0.0
+        strut_rows(p, w, cy, sy)
+    if p.n_loops > 0:
+        loop_rows(p, w, cy, sy)
+    for i in range(count):
+        row = p.active[i]
+        w.right[i] = -w.slack[row]
+        for c in range(n):
+            w.system[i, c] = w.motion[row, c]
+    for i in range(p.n_held_loops):
+        row = p.held_loops[i]
+        w.right[count + i] = -w.closure[row]
+        for c in range(n):
+            w.system[count + i, c] = w.closing[row, c]
+    return eliminate(w.system, w.right, n)
+
+
+@inlined
+def take_step(p: Posed, w: Work, z: Array) -> tuple[float, float]:
+    """Move z by `w.right`: the largest part of the step, and how far z is from where it began, in units."""
+    largest, moved = 0.0, 0.0
+    for c in range(p.n_free):
+        largest = max(largest, abs(w.right[c]) / p.units[c])
+        z[c] += w.right[c]
+        moved = max(moved, abs(z[c] - w.start[c]) / p.units[c])
+    return largest, moved
+
+
+@formula
+def land(
+    p: Posed, ground: Ground, params: Array, table: Array, w: Work, z: Array, x: float, y: float, cy: float,
+    sy: float,
+) -> tuple[bool, float]:  # fmt: skip
+    """Move z to where the supports touch, loops close and forces balance; contacts are followed.
+
+    Args:
+        p: the machine.
+        ground: the surface.
+        params: its parameters.
+        table: its table.
+        w: scratch; places of contacts and `start` are given, contacts are left one step before the landing.
+        z: (>= n,) start, receives the landing.
+        x: of the base [m].
+        y: of the base [m].
+        cy: cosine of the yaw.
+        sy: sine of the yaw.
+
+    Returns:
+        whether it landed, and the sign of the determinant (0 where supports do not determine the pose).
+    """
+    determinate = p.n_active + p.n_held_loops == p.n_free
+    for i in range(ITERATIONS):
+        if determinate:
+            walk(p, z, x, y, cy, sy, w.rot, w.org)
+            for k in range(p.n_active):
+                if p.active[k] < p.n_shapes:
+                    follow_contact(p, ground, params, table, w, p.active[k])
+            sign = newton_step(p, w, z, cy, sy)
+            if sign == 0.0:
+                return False, 0.0
+        else:
+            sign = 0.0
+            walk(p, z, x, y, cy, sy, w.rot, w.org)
+            if not elastic_system(p, ground, params, table, w, z, x, y, cy, sy, i == 0):
+                return False, 0.0
+        largest, moved = take_step(p, w, z)
+        if not moved <= REACH:
+            return False, 0.0
+        if largest < STEP:
+            return True, sign
+    return False, math.nan

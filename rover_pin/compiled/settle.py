@@ -1,0 +1,181 @@
+"""One case inside the kernels: straight to the ground, loads, residuals, or left open for the plain path."""
+
+from __future__ import annotations
+
+import math
+
+from rover_pin.compiled.bounds import touches_once
+from rover_pin.compiled.elastic import is_steady
+from rover_pin.compiled.ground import Ground
+from rover_pin.compiled.land import ITERATIONS, REACH, STEP, land, newton_step, take_step
+from rover_pin.compiled.posed import Posed
+from rover_pin.compiled.residuals import recompute
+from rover_pin.compiled.search import Search
+from rover_pin.compiled.share import PENETRATION, TOUCHING, share
+from rover_pin.compiled.state import follow_contact, search_contact, start_contacts, tilt_cosine
+from rover_pin.compiled.underside import CLEAR, IN_GROUND, look_below
+from rover_pin.compiled.walk import place, turn, walk
+from rover_pin.compiled.work import Work
+from rover_pin.numerics import Array, formula, inlined
+from rover_pin.terrain.surface import LINEAR, tabled
+
+SETTLED, GROUNDED, OFF_MAP, OPEN = 0, 1, 2, 255
+
+# As on the plain path.
+BALANCED = 1e-7
+ACCEPTED = 1e-6
+UPRIGHT = math.cos(math.radians(80.0))
+WINDOW = 1e-5
+
+REPEATS = 4
+"""Landings tried where a shape turns out to touch nearer elsewhere."""
+
+FOLLOWED = 8
+"""Steps to follow a contact at the landing."""
+
+MOVED = 1e-7
+"""m: a followed contact that moves less than this is exact after the step, which squares its error."""
+
+
+@formula
+def settle_one(
+    p: Posed, ground: Ground, params: Array, table: Array, tiles: Array, skin: Array, search: Search,
+    w: Work, x: float,
+    y: float, yaw: float, z: Array, loads: Array, residuals: Array,
+) -> tuple[int, int, float, int]:  # fmt: skip
+    """A rover at a place.
+
+    Args:
+        p: the machine.
+        ground: the surface.
+        params: its parameters.
+        table: its table.
+        tiles: its bounds.
+        skin: (h, 4) points of the underside and their radii [m].
+        search: the contact search.
+        w: scratch; afterwards it holds the pose's frames and contacts.
+        x: m.
+        y: m.
+        yaw: rad.
+        z: (>= n,) receives the pose.
+        loads: (s,) receives loads [N].
+        residuals: (4,) receives equilibrium, gap, loop, complementarity.
+
+    Returns:
+        SETTLED, GROUNDED, OFF_MAP or OPEN; the underside's point or the wheel it is about; how deep [m]; how
+        many more supports there are than equilibrium determines.
+    """
+    cy, sy = math.cos(yaw), math.sin(yaw)
+    begin(p, w, z, x, y, cy, sy, tabled(ground.kind, table, params, x, y)[0])
+    stands = False
+    for _ in range(REPEATS):
+        if ground.kind == LINEAR:
+            landed, sign = False, 0.0
+            for _ in range(ITERATIONS if p.n_active + p.n_held_loops == p.n_free else 0):
+                walk(p, z, x, y, cy, sy, w.rot, w.org)
+                for k in range(p.n_active):
+                    if p.active[k] < p.n_shapes:
+                        search_contact(p, ground, params, table, search, w, p.active[k], 0.0)
+                sign = newton_step(p, w, z, cy, sy)
+                largest, moved = take_step(p, w, z)
+                if sign == 0.0 or not moved <= REACH or largest < STEP:
+                    landed = largest < STEP and moved <= REACH
+                    break
+        else:
+            landed, sign = land(p, ground, params, table, w, z, x, y, cy, sy)
+        if not landed or sign != p.sign or is_loose(p, ground, params, table, w, z, x, y, cy, sy):
+            return OPEN, -1, 0.0, 0
+        walk(p, z, x, y, cy, sy, w.rot, w.org)
+        lowest = 0.0
+        for i in range(p.n_shapes):
+            if not is_proven(p, ground, params, table, tiles, w, i):
+                count = search_contact(p, ground, params, table, search, w, i, WINDOW)
+                if count > 1 and w.found[1, 0] <= TOUCHING:
+                    return OPEN, -1, 0.0, 0
+            w.slack[i] = w.contacts[i, 0]
+            lowest = min(lowest, w.slack[i])
+        stands = lowest >= PENETRATION
+        if stands:
+            break
+    if not stands or tilt_cosine(z) < UPRIGHT:
+        return OPEN, -1, 0.0, 0
+    return judge(p, ground, params, table, tiles, skin, w, z, cy, sy, loads, residuals)
+
+
+@inlined
+def begin(p: Posed, w: Work, z: Array, x: float, y: float, cy: float, sy: float, level: float) -> None:
+    """Put the rover on level ground at the height below its base, its contacts below its shapes' centres."""
+    for c in range(p.n_free):
+        z[c] = p.start[c]
+    z[0] += level
+    for c in range(p.n_free):
+        w.start[c] = z[c]
+    walk(p, z, x, y, cy, sy, w.rot, w.org)
+    start_contacts(p, w)
+
+
+@formula
+def is_loose(
+    p: Posed, ground: Ground, params: Array, table: Array, w: Work, z: Array, x: float, y: float, cy: float,
+    sy: float,
+) -> bool:  # fmt: skip
+    """Whether the pose hangs on a stiffness that does not resist every free motion."""
+    if p.n_active + p.n_held_loops == p.n_free:
+        return False
+    return not is_steady(p, ground, params, table, w, z, x, y, cy, sy)
+
+
+@formula
+def is_proven(p: Posed, ground: Ground, params: Array, table: Array, tiles: Array, w: Work, i: int) -> bool:
+    """Follow the contact of shape i at the landing to its end; whether the ground's bounds prove it the least."""
+    if ground.kind == LINEAR:
+        return False
+    for _ in range(FOLLOWED):
+        if follow_contact(p, ground, params, table, w, i) < MOVED:
+            b = p.carriers[i]
+            cx, cy, _ = place(w.rot, w.org, b, p.centers[i, 0], p.centers[i, 1], p.centers[i, 2])
+            _, _, az = turn(w.rot, b, p.axes[i, 0], p.axes[i, 1], p.axes[i, 2])
+            return touches_once(
+                ground, tiles, p.reach_of[i], cx, cy, az, p.rings[i], p.treads[i], w.contacts[i, 0]
+            )
+    return False
+
+
+@formula
+def judge(
+    p: Posed, ground: Ground, params: Array, table: Array, tiles: Array, skin: Array, w: Work, z: Array,
+    cy: float, sy: float, loads: Array, residuals: Array,
+) -> tuple[int, int, float, int]:  # fmt: skip
+    """What a landing is: off the map, in the ground, settled with its loads, or for the plain path to say."""
+    off = off_map(p, ground, w)
+    if off >= 0:
+        return OFF_MAP, off, 0.0, 0
+    redundant = share(p, w, z, cy, sy)
+    if redundant < 0:
+        return OPEN, -1, 0.0, 0
+    kind, point, depth = look_below(p, ground, params, table, tiles, skin, w)
+    if kind != CLEAR:
+        return (GROUNDED if kind == IN_GROUND else OPEN), point, depth, 0
+    recompute(p, ground, params, table, w, z, cy, sy, loads, residuals)
+    worst = max(max(residuals[0], residuals[1]), max(residuals[2], residuals[3]))
+    unique = redundant == 0 and p.n_active + p.n_held_loops == p.n_free
+    if not worst <= ACCEPTED or (not unique and residuals[0] > BALANCED):
+        return OPEN, -1, 0.0, 0
+    return SETTLED, -1, 0.0, redundant
+
+
+@formula
+def off_map(p: Posed, ground: Ground, w: Work) -> int:
+    """The first shape with a point that is not over the map, or -1."""
+    e = ground.extent
+    if e[0] == -math.inf and e[1] == math.inf and e[2] == -math.inf and e[3] == math.inf:
+        return -1
+    for i in range(p.n_shapes):
+        b = p.carriers[i]
+        cx, cy, _ = place(w.rot, w.org, b, p.centers[i, 0], p.centers[i, 1], p.centers[i, 2])
+        ax, ay, _ = turn(w.rot, b, p.axes[i, 0], p.axes[i, 1], p.axes[i, 2])
+        rx = p.rings[i] * math.sqrt(max(1.0 - ax * ax, 0.0)) + p.treads[i]
+        ry = p.rings[i] * math.sqrt(max(1.0 - ay * ay, 0.0)) + p.treads[i]
+        if cx - rx < e[0] or cx + rx > e[1] or cy - ry < e[2] or cy + ry > e[3]:
+            return i
+    return -1
