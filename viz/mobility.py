@@ -170,8 +170,8 @@ def _legend(figure: Figure, none: bool, partly: bool, step: float) -> None:
     if none:
         marks.append(Patch(**NO_ANSWER, label="no heading settles"))
     if partly:
-        dots = {"facecolor": "w", "edgecolor": "0.5", "linewidth": 0.0, "hatch": IN_PART}
-        marks.append(Patch(**dots, label="some headings do not settle"))
+        words = "some headings do not settle"
+        marks.append(Patch(facecolor="w", edgecolor="0.5", linewidth=0.0, hatch=IN_PART, label=words))
     if step:
         label = f"heights of the ground, {step:.3g} m apart"
         marks.append(Line2D([], [], color="0.3", linewidth=0.5, label=label))
