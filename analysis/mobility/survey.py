@@ -105,7 +105,7 @@ class Surveyor:
         """
         asked = self.survey
         y, x, yaw = np.meshgrid(asked.y[chunk[0] : chunk[1]], asked.x, asked.yaw, indexing="ij")
-        outcome, value = self._answer(x.ravel(), y.ravel(), yaw.ravel())
+        outcome, value = self.answer(x.ravel(), y.ravel(), yaw.ravel())
         open_cases = outcome == UNANSWERED
         for i in np.flatnonzero(open_cases):
             place = float(x.ravel()[i]), float(y.ravel()[i]), float(yaw.ravel()[i])
@@ -121,7 +121,7 @@ class Surveyor:
             "to_plain_path": open_cases.reshape(x.shape).sum(axis=(1, 2)),
         }
 
-    def _answer(self, x: Array, y: Array, yaw: Array) -> tuple[NDArray[np.int64], Array]:
+    def answer(self, x: Array, y: Array, yaw: Array) -> tuple[NDArray[np.int64], Array]:
         """(n,) outcome's number, `UNANSWERED` where the compiled path leaves it open; (n,) value or NaN."""
         answers = self.batch.answer(x, y, yaw, postures=(self.survey.posture,))
         outcome = np.empty(len(x), dtype=np.int64)
