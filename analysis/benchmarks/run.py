@@ -12,7 +12,7 @@ from rover_pin.analysis.benchmarks.growth import over_cases, over_nodes, over_wh
 from rover_pin.analysis.benchmarks.methods import SceneBench
 from rover_pin.analysis.benchmarks.mujoco_peer import version as mujoco_version
 from rover_pin.analysis.benchmarks.row import Row
-from rover_pin.analysis.benchmarks.scene import Scene, moderate, rough
+from rover_pin.analysis.benchmarks.scene import MODERATE, Scene, moderate, rough
 from rover_pin.analysis.benchmarks.size import FULL, QUICK, Size
 from rover_pin.analysis.benchmarks.two_processes import together
 from rover_pin.analysis.provenance import versions
@@ -91,9 +91,9 @@ def _scene(report: Report, scene: Scene, amount: Size, peer: bool, tell: Progres
         report.rows += measured.compiled_rows()
         tell(f"{where}: slowest case")
         report.rows.append(measured.slowest_row())
-        tell(f"{where}: one process, two processes")
-        if scene.kind == "moderate":
-            report.rows += [together(scene, count, amount.cases, amount.turns) for count in amount.processes]
+        if scene.kind == MODERATE and amount.processes:
+            tell(f"{where}: {' and '.join(map(str, amount.processes))} processes")
+            report.rows += together(scene, amount.processes, amount.cases, amount.turns)
     tell(f"{where}: plain")
     report.rows += measured.plain_rows()
     if peer:

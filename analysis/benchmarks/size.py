@@ -36,7 +36,7 @@ class Size:
     grow_nodes: tuple[int, ...] = ()
 
 
-QUICK = Size(cases=20_000, turns=10, times=3, plain=30, alone=500, open_alone=20, resting=3)
+QUICK = Size(cases=10_000, turns=10, times=2, plain=30, alone=500, open_alone=20, resting=3)
 FULL = Size(
     cases=100_000,
     turns=10,

@@ -21,27 +21,40 @@ if TYPE_CHECKING:
     from multiprocessing.queues import Queue
 
 PATIENCE_S = 600.0
-Told = tuple[float, float, float, int]
-"""Begin and end on the wall (a clock that processes share), processor's seconds, cases left open."""
+Told = tuple[int, float, float, float, int]
+"""How many worked at once, begin and end on the wall (a clock that processes share), processor's seconds,
+cases left open."""
 
 
-def together(scene: Scene, processes: int, cases: int, turns: int) -> Row:
-    """Steady work: every process answers the same number of cases, `turns` calls of `cases`.
+def together(scene: Scene, counts: tuple[int, ...], cases: int, turns: int) -> list[Row]:
+    """Steady work by so many processes at once, a row for each of `counts`.
 
-    Start-up, compilation and the first call are before the clock starts, which all wait for.
+    Every process that works answers the same number of cases, `turns` calls of `cases`. Start-up, compilation
+    and the first call are before the clock starts, which all wait for.
     """
     context = multiprocessing.get_context("spawn")
-    barrier, results = context.Barrier(processes), context.Queue()
-    arguments = (scene, cases, turns, barrier, results)
-    workers = [context.Process(target=_work, args=arguments, daemon=True) for _ in range(processes)]
+    most = max(counts, default=0)
+    if most == 0:
+        return []
+    barrier, results = context.Barrier(most), context.Queue()
+    workers = [
+        context.Process(target=_work, args=(scene, counts, rank, cases, turns, barrier, results), daemon=True)
+        for rank in range(most)
+    ]
     with _started(workers):
-        told: list[Told] = [results.get(timeout=PATIENCE_S) for _ in workers]
-    begin, end, cpu, open_cases = np.array(told).T
-    count = processes * cases * turns
+        told: list[Told] = [results.get(timeout=PATIENCE_S) for _ in range(sum(counts))]
+    return [
+        _row(scene, count, cases * turns, [each for each in told if each[0] == count]) for count in counts
+    ]
+
+
+def _row(scene: Scene, processes: int, each: int, told: list[Told]) -> Row:
+    _, begin, end, cpu, left = np.array(told).T
+    count = processes * each
     time_spent = Spent(float(end.max() - begin.min()), float(cpu.sum()))
     return Row(
         "settle", scene.rover.name, scene.kind, scene.terrain.label, COMPILED,
-        processes=processes, to_plain_path=float(open_cases.sum() / count), **rates(count, time_spent),
+        processes=processes, to_plain_path=float(left.sum() / count), **rates(count, time_spent),
     )  # fmt: skip
 
 
@@ -58,14 +71,25 @@ def _started(workers: list[Any]) -> Iterator[None]:
                 worker.terminate()
 
 
-def _work(scene: Scene, cases: int, turns: int, barrier: Barrier, results: Queue[Told]) -> None:
-    """In a process of its own."""
+def _work(
+    scene: Scene,
+    counts: tuple[int, ...],
+    rank: int,
+    cases: int,
+    turns: int,
+    barrier: Barrier,
+    results: Queue[Told],
+) -> None:
+    """In a process of its own: works where its rank is below the count, else waits for the others."""
     batch, places = make(scene), scene.places(cases)
     ask(batch, places)
-    barrier.wait(timeout=PATIENCE_S)
-    begin = time.perf_counter()
-    left = 0
-    with spent() as timer:
-        for _ in range(turns):
-            left += int(np.sum(ask(batch, places).code == OPEN))
-    results.put((begin, time.perf_counter(), timer.spent.cpu, left))
+    for count in counts:
+        barrier.wait(timeout=PATIENCE_S)
+        if rank >= count:
+            continue
+        begin = time.perf_counter()
+        left = 0
+        with spent() as timer:
+            for _ in range(turns):
+                left += int(np.sum(ask(batch, places).code == OPEN))
+        results.put((count, begin, time.perf_counter(), timer.spent.cpu, left))

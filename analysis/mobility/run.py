@@ -130,7 +130,7 @@ def _check_measure(rover: Rover, measure: str) -> None:
 def _try(survey: Survey) -> None:
     """Set the rover down in the middle of the map by either path, before the work begins.
 
-    The plain path finds bad input; the compiled one leaves its kernels on disk, so that workers only load them.
+    The plain path finds bad input; the compiled one leaves its kernels on disk, where workers find them.
     """
     from rover_pin import settle
 

@@ -107,10 +107,12 @@ def test_what_is_left_out_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_two_processes_share_no_work(bogie: Any) -> None:
-    row = together(moderate(bogie, size=6.0), 2, 50, 2)
-    assert (row.processes, row.cases, row.method) == (2, 200, "compiled")
-    assert row.per_second is not None
-    assert row.per_cpu_second is not None
+    one, two = together(moderate(bogie, size=6.0), (1, 2), 50, 2)
+    assert (one.processes, one.cases, two.processes, two.cases) == (1, 100, 2, 200)
+    for row in (one, two):
+        assert row.method == "compiled"
+        assert row.per_second is not None
+        assert row.per_cpu_second is not None
 
 
 def test_growth_has_a_row_for_each_size() -> None:
