@@ -1,5 +1,6 @@
 """Studies: many cases of one question, run by an engine, answered as one labelled Dataset."""
 
+from rover_pin.analysis.mobility import mobility
 from rover_pin.analysis.study import Study
 
-__all__ = ["Study"]
+__all__ = ["Study", "mobility"]

@@ -39,6 +39,10 @@ class Job:
     gravity: float
     locks: tuple[str, ...]
 
+    def runner(self) -> Runner:
+        """What carries it out in this process."""
+        return Runner(self)
+
 
 class Runner:
     """Carries out parts of a job in this process.

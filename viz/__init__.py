@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from rover_pin.viz.browser import save_png as save_png
+    from rover_pin.viz.mobility import plot_mobility as plot_mobility
     from rover_pin.viz.page.study import save_study_page as save_study_page
     from rover_pin.viz.page.study import worst_cases as worst_cases
     from rover_pin.viz.plots import plot_distributions as plot_distributions
@@ -23,6 +24,7 @@ _HOME = {
     "draw": "scene",
     "plot_distributions": "plots",
     "plot_map": "plots",
+    "plot_mobility": "mobility",
     "save_html": "show",
     "save_png": "browser",
     "save_study_page": "page.study",

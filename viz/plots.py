@@ -28,7 +28,7 @@ STYLE: Any = {
 STATISTICS = {"worst": 0.0, "median": 0.5, "best": 1.0}
 
 
-def _figure(width: float, height: float) -> Figure:
+def new_figure(width: float, height: float) -> Figure:
     """A figure on its own Agg canvas: no window system, no pyplot, nothing to close."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure as MatplotlibFigure
@@ -115,9 +115,9 @@ def plot_map(
     unit, factor = shown(str(dataset[name].attrs.get("units", "")))
     better = str(dataset[name].attrs["better"])
     with mpl.rc_context(STYLE):
-        figure = _figure(4.2, 3.6)
+        figure = new_figure(4.2, 3.6)
         axes = figure.add_subplot()
-        norm, colours = _scale(factor * values, better)
+        norm, colours = colour_scale(factor * values, better)
         image = axes.pcolormesh(xs, ys, factor * values, norm=norm, cmap=colours, rasterized=True)
         _crosses(axes, xs, ys, values, counts)
         if terrain is not None:
@@ -130,7 +130,7 @@ def plot_map(
     return figure
 
 
-def _scale(values: Array, better: str) -> tuple[Any, str]:
+def colour_scale(values: Array, better: str) -> tuple[Any, str]:
     """Norm and colour map: PuOr about zero for both signs (orange is worse), else cividis (dark is worse)."""
     from matplotlib.colors import Normalize
 
@@ -168,7 +168,7 @@ def plot_distributions(dataset: xr.Dataset) -> Figure:
     columns = min(3, panels)
     rows = -(-panels // columns)
     with mpl.rc_context(STYLE):
-        figure = _figure(2.25 * columns, 1.55 * rows)
+        figure = new_figure(2.25 * columns, 1.55 * rows)
         for k, name in enumerate(names):
             _histogram(figure.add_subplot(rows, columns, k + 1), dataset[name], settled)
         _boxes(figure.add_subplot(rows, columns, panels), dataset, settled)

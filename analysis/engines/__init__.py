@@ -8,7 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from rover_pin.analysis.job import Chunk, Done, Job
+from rover_pin.analysis.job import Chunk, Done
+from rover_pin.analysis.rows import Columns
 from rover_pin.errors import StudyError, nearest
 
 
@@ -20,6 +21,22 @@ class Resources:
     scheduler: str | None = None
 
 
+class Worker(Protocol):
+    """Answers chunks of a work in one process."""
+
+    def run(self, chunk: Chunk) -> Columns:
+        """The rows of a chunk."""
+        ...
+
+
+class Work(Protocol):
+    """What engines carry out, as `rover_pin.analysis.job.Job`; crosses processes whole."""
+
+    def runner(self) -> Worker:
+        """What answers its chunks in this process."""
+        ...
+
+
 class Engine(Protocol):
     """Runs every chunk once and hands each to `done`, in any order, in the calling process."""
 
@@ -29,7 +46,7 @@ class Engine(Protocol):
         """How many chunks run at once."""
         ...
 
-    def run(self, job: Job, chunks: Sequence[Chunk], resources: Resources, done: Done) -> None:
+    def run(self, job: Work, chunks: Sequence[Chunk], resources: Resources, done: Done) -> None:
         """Carry out the chunks."""
         ...
 

@@ -11,15 +11,15 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 
-from rover_pin.analysis.engines import Resources
-from rover_pin.analysis.job import Chunk, Done, Job, Runner
+from rover_pin.analysis.engines import Resources, Work, Worker
+from rover_pin.analysis.job import Chunk, Done
 from rover_pin.analysis.rows import Columns
 from rover_pin.errors import SolverError, StudyError
 
 ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 """Matrices are small: threads below a worker only get in its way."""
 
-_runner: Runner | None = None
+_runner: Worker | None = None
 
 
 class Processes:
@@ -33,7 +33,7 @@ class Processes:
             return resources.workers
         return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
-    def run(self, job: Job, chunks: Sequence[Chunk], resources: Resources, done: Done) -> None:
+    def run(self, job: Work, chunks: Sequence[Chunk], resources: Resources, done: Done) -> None:
         """Carry out the chunks; at an interrupt or an error those under way are finished, no more are begun.
 
         Raises:
@@ -79,12 +79,12 @@ def _feed(pool: ProcessPoolExecutor, chunks: list[Chunk], ahead: int, done: Done
             future.cancel()
 
 
-def _start(job: Job) -> None:
+def _start(job: Work) -> None:
     """Make a worker ready: the parent alone answers Ctrl-C, and no worker outlives its parent."""
     global _runner
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_follow_parent, daemon=True).start()
-    _runner = Runner(job)
+    _runner = job.runner()
 
 
 def _follow_parent() -> None:

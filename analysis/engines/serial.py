@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rover_pin.analysis.engines import Resources
-from rover_pin.analysis.job import Chunk, Done, Job, Runner
+from rover_pin.analysis.engines import Resources, Work
+from rover_pin.analysis.job import Chunk, Done
 
 
 class Serial:
@@ -17,9 +17,9 @@ class Serial:
         """One."""
         return 1
 
-    def run(self, job: Job, chunks: Sequence[Chunk], resources: Resources, done: Done) -> None:
+    def run(self, job: Work, chunks: Sequence[Chunk], resources: Resources, done: Done) -> None:
         """Carry out the chunks."""
-        runner = Runner(job)
+        runner = job.runner()
         for chunk in chunks:
             done(chunk, runner.run(chunk))
 

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import sys
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -17,7 +14,7 @@ from rover_pin.errors import InputError
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rover_pin.analysis.study import Progress, Study
+    from rover_pin.analysis.study import Study
 
 INTERRUPTED = 130
 
@@ -43,6 +40,7 @@ def study(
     from rover_pin.analysis import Study
     from rover_pin.analysis.summary import statuses
     from rover_pin.cli.output import announce_compilation, aside, check_outputs, print_json
+    from rover_pin.cli.progress import progress_bar
     from rover_pin.cli.study_report import print_study, study_object
 
     path = out or Path(f"{spec.stem if spec else 'study'}.nc")
@@ -55,7 +53,7 @@ def study(
     started = time.perf_counter()
     try:
         announce_compilation()
-        with _bar() as progress:
+        with progress_bar("cases") as progress:
             data = asked.run(
                 engine=engine,
                 workers=workers,
@@ -92,18 +90,3 @@ def _save_page(asked: Study, data: xr.Dataset, html: Path) -> None:
     stances = {case: asked.stance(case) for case in viz.worst_cases(data)}
     ready = asked.plan
     viz.save_study_page(data, html, rover=ready.rover, terrain=ready.job.terrain, stances=stances)
-
-
-@contextmanager
-def _bar() -> Iterator[Progress | None]:
-    """A progress bar on stderr where that is a terminal."""
-    if not sys.stderr.isatty():
-        yield None
-        return
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-    columns = (TextColumn("cases"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("cases", total=None)
-        yield lambda finished, count: bar.update(task, completed=finished, total=count)
