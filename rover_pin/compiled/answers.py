@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -70,7 +71,8 @@ class Answers:
     @property
     def settled(self) -> NDArray[np.bool_]:
         """(n,) whether a case is answered by a stance."""
-        return self.code == SETTLED
+        there: NDArray[np.bool_] = self.code == SETTLED
+        return there
 
     def labelled(self, measure: str) -> Labelled:
         """A measure along its edges.
@@ -89,25 +91,32 @@ class Answers:
         return self._on_polygon(ON_EDGES.index(measure))
 
     def _on_polygon(self, m: int) -> Labelled:
+        names, place, rows, columns, labels = self._pairs
+        table = np.full((len(self), len(names)), np.nan)
+        table[rows, labels] = self._out.edges[rows, m, columns]
+        limiting = self._out.limiting[:, m]
+        named = np.flatnonzero(limiting >= 0)
+        index = np.full(len(self), -1, dtype=np.int64)
+        index[named] = place[named, limiting[named]]
+        return list(names), table, index
+
+    @cached_property
+    def _pairs(self) -> tuple[list[str], Integers, Integers, Integers, Integers]:
+        """Edge names; (n, s) the name of each edge of each case; where there are edges, and their names."""
         wheels, corners = len(self.wheels), self._out.corners
         there = corners >= 0
         last = np.maximum(np.count_nonzero(there, axis=1) - 1, 0)
         following = np.roll(corners, -1, axis=1)
         following[np.arange(len(corners)), last] = corners[:, 0]
         pair = corners * wheels + following
-        found = np.flatnonzero(np.bincount(pair[there], minlength=wheels * wheels))
-        names = [f"{self.wheels[k // wheels]}-{self.wheels[k % wheels]}" for k in found.tolist()]
-        order = sorted(range(len(names)), key=names.__getitem__)
-        place = np.full(wheels * wheels, -1, dtype=np.int64)
-        place[found[order]] = np.arange(len(order))
-        table = np.full((len(corners), len(names)), np.nan)
+        found = np.flatnonzero(np.bincount(pair[there], minlength=wheels * wheels)).tolist()
+        words = {k: f"{self.wheels[k // wheels]}-{self.wheels[k % wheels]}" for k in found}
+        order = sorted(found, key=words.__getitem__)
+        rank = np.full(wheels * wheels, -1, dtype=np.int64)
+        rank[order] = np.arange(len(order))
+        place = rank[pair]
         rows, columns = np.nonzero(there)
-        table[rows, place[pair[rows, columns]]] = self._out.edges[rows, m, columns]
-        limiting = self._out.limiting[:, m]
-        named = limiting >= 0
-        index = np.full(len(corners), -1, dtype=np.int64)
-        index[named] = place[pair[np.flatnonzero(named), limiting[named]]]
-        return [names[k] for k in order], table, index
+        return [words[k] for k in order], place, rows, columns, place[rows, columns]
 
     def words(self) -> tuple[NDArray[np.str_], NDArray[np.str_]]:
         """Status and reason of every case, as the plain path words them; both empty where it is open."""

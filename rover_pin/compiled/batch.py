@@ -127,16 +127,15 @@ class Batch:
                 groups, index = self._groups(each, template, held, designs, len(mine))
                 part = self._settle(groups, index, x[mine], y[mine], yaw[mine])
                 joint_rad[mine] = groups.pose.joints(index, part.z)
-                for whole, some in zip(out, part, strict=True):
-                    if len(whole):
-                        whole[mine] = some[:, :3] if some is part.z else some
+                _put(out, mine, part)
         return answers_of(self.rover, self.measures, out, joint_rad, links)
 
     def _settle(self, groups: Groups, index: Integers, x: Array, y: Array, yaw: Array) -> Out:
         free = int(groups.pose.records["n_free"][0])
         out = blank(self.rover, len(x), bool(self.measures), free)
         settle_all(
-            groups.pose.records, groups.scratch, *self._ground, groups.skin, contact_search(), index, x, y, yaw, out
+            groups.pose.records, groups.scratch, *self._ground, groups.skin, contact_search(), index,
+            x, y, yaw, out,
         )  # fmt: skip
         return out
 
@@ -218,6 +217,14 @@ class Batch:
 def _name(posture: Posture) -> object:
     """A posture as a key."""
     return posture if posture is None or isinstance(posture, str) else tuple(sorted(posture.items()))
+
+
+def _put(out: Out, cases: Integers, part: Out) -> None:
+    """Write the answers of some cases among those of all; of free coordinates the base's three."""
+    for name in Out._fields:
+        whole, some = getattr(out, name), getattr(part, name)
+        if len(whole):
+            whole[cases] = some[:, :3] if name == "z" else some
 
 
 def _blocks(cases: Integers, most: int) -> Iterator[Integers]:

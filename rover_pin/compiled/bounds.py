@@ -2,7 +2,7 @@
 
 Between two nodes the biquadratic spline's second derivatives along x or y are means of second differences of
 coefficients, the mixed one a mean of mixed differences, the first ones of first differences, the height of
-coefficients: their extremes over a cell's 3 x 3 coefficients bound them (the B-spline's convex hull property).
+coefficients: their extremes over a cell's 3 x 3 coefficients bound them (convex hull property of B-splines).
 """
 
 from __future__ import annotations
@@ -120,8 +120,9 @@ def sure_within(
     there the skin's principal curvatures are at least 1 / R with R = ring / cos(alpha + beta) + tread, alpha
     being the axis's inclination, and so are its second derivatives as a function over the plane. Over a
     segment of length l from the contact, along which the ground's second derivative is at most k(r) at
-    distance r, the skin rises above the ground by at least l^2 / 2 R less the integral of (l - r) k(r). Beyond
-    those skin points it rises more steeply than the ground. A skin that hovers is as one grown by its gap.
+    distance r, the skin rises above the ground by at least l^2 / 2 R less the integral of (l - r) k(r).
+    Beyond those skin points it rises more steeply than the ground. A skin that hovers is as one
+    grown by its gap.
 
     Args:
         ground: the surface's record.

@@ -30,7 +30,7 @@ STEADY = 1e-9
 def held_forces(
     p: Posed, ground: Ground, params: Array, table: Array, w: Work, z: Array, cy: float, sy: float
 ) -> None:
-    """Load in `w.load`, and of what is held: motion rows in `w.rows`, force rows in `w.sides`, slack in `w.gaps`."""
+    """Load in `w.load`; of what is held the rows and slacks in `w.rows`, `w.sides` (forces) and `w.gaps`."""
     shapes, n = p.n_shapes, p.n_free
     count = p.n_active
     gravity_load(p, w, cy, sy)
@@ -57,7 +57,7 @@ def held_forces(
 
 @formula
 def least_forces(p: Posed, w: Work, held: int, out: Array) -> bool:
-    """Multipliers (held,) that come nearest to balance, by normal equations of scaled rows; False if singular."""
+    """Multipliers (held,) nearest to balance, by normal equations of scaled rows; False where singular."""
     n = p.n_free
     for i in range(held):
         out[i] = 0.0
@@ -110,8 +110,8 @@ def stiffness(
 
 @formula
 def elastic_system(
-    p: Posed, ground: Ground, params: Array, table: Array, w: Work, z: Array, x: float, y: float, cy: float, sy: float,
-    first: bool,
+    p: Posed, ground: Ground, params: Array, table: Array, w: Work, z: Array, x: float, y: float, cy: float,
+    sy: float, first: bool,
 ) -> bool:  # fmt: skip
     """One Newton step on balance, active gaps and loops: dz in `w.right`, multipliers in `w.forces`.
 

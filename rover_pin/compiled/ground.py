@@ -40,7 +40,7 @@ GROUND = np.dtype(
 
 
 def ground_of(terrain: Terrain, reaches: tuple[float, ...]) -> GroundArrays:
-    """Record, parameters, table and tiles of a terrain; see `rover_pin.compiled.bounds` for tiles and reaches.
+    """Record, parameters, table and tiles of a terrain; `rover_pin.compiled.bounds` has tiles and reaches.
 
     Args:
         terrain: the terrain.

@@ -77,7 +77,8 @@ def varied(
     out = blank(rover, count, False, int(records["n_free"][0]))
     nowhere = np.zeros(count)
     settle_all(
-        records, groups.scratch, *flat, groups.skin, contact_search(), np.arange(count), nowhere, nowhere, nowhere, out
+        records, groups.scratch, *flat, groups.skin, contact_search(), np.arange(count), nowhere, nowhere,
+        nowhere, out,
     )  # fmt: skip
     records["usable"] &= (out.code == SETTLED) | (out.code == GROUNDED)
     records["start"][:, : out.z.shape[1]] = out.z

@@ -65,12 +65,13 @@ def hull(points: Array, chosen: Integers, count: int, corners: Integers) -> int:
 @inlined
 def _after(points: Array, a: int, b: int) -> bool:
     """Whether row a comes after row b by x, then y."""
-    return points[a, 1] > points[b, 1] or (points[a, 1] == points[b, 1] and points[a, 2] > points[b, 2])
+    return bool(points[a, 1] > points[b, 1] or (points[a, 1] == points[b, 1] and points[a, 2] > points[b, 2]))
 
 
 @inlined
 def _area(points: Array, a: int, b: int, c: int) -> float:
     """Twice the signed area of a triangle."""
-    return (points[b, 1] - points[a, 1]) * (points[c, 2] - points[a, 2]) - (points[b, 2] - points[a, 2]) * (
-        points[c, 1] - points[a, 1]
-    )
+    ux, uy = points[b, 1] - points[a, 1], points[b, 2] - points[a, 2]
+    vx, vy = points[c, 1] - points[a, 1], points[c, 2] - points[a, 2]
+    area: float = ux * vy - uy * vx
+    return area

@@ -42,7 +42,8 @@ class Out(NamedTuple):
 @formula
 def settle_all(
     machines: NDArray[np.void], scratch: NDArray[np.void], grounds: NDArray[np.void], params: Array,
-    table: Array, tiles: Tiles, skin: Array, search: Search, groups: Integers, x: Array, y: Array, yaw: Array, out: Out,
+    table: Array, tiles: Tiles, skin: Array, search: Search, groups: Integers, x: Array, y: Array, yaw: Array,
+    out: Out,
 ) -> None:  # fmt: skip
     """Every case by itself; where its machine is not usable it is left open.
 

@@ -52,7 +52,7 @@ class Pose(NamedTuple):
     consistent: NDArray[np.bool_]
 
     def joints(self, groups: Integers, z: Array) -> Array:
-        """(n, joints) rad or m at free coordinates z (n, free) of cases of these groups; sums in a fixed order."""
+        """(n, joints) rad or m at free coordinates z (n, free) of cases of these groups (n,)."""
         g = np.maximum(groups, 0) if len(self.offset) > 1 else np.zeros(1, dtype=np.int64)
         out = np.broadcast_to(self.offset[g, BASE:], (len(z), self.offset.shape[1] - BASE)).copy()
         for k in range(z.shape[1]):
@@ -82,7 +82,7 @@ def pose(rover: Rover, machine: Machine, problem: Problem, held: Sequence[str], 
 
 def _reduced(
     machine: Machine, columns: Sequence[int], dependent: Sequence[int], values: Array
-) -> tuple[Array, Array, Array]:
+) -> tuple[Array, Array, NDArray[np.bool_]]:
     """basis (g, nv, n) and offset (g, nv) that satisfy the couplings, and whether they do (g,).
 
     Entries that are neither free nor held depend on those by the coupling rows, design by design.
@@ -95,13 +95,12 @@ def _reduced(
     for k, column in enumerate(columns):
         basis[:, column, k] = 1.0
     if dependent:
-        inverse = np.linalg.pinv(rows[:, :, dependent])
+        inverse: Array = np.linalg.pinv(rows[:, :, dependent]).astype(np.float64)
         basis[:, dependent] = -inverse @ rows[:, :, list(columns)]
         basis[np.abs(basis) < 1e-15] = 0.0
         offset[:, dependent] = _product(inverse, right - _product(rows, offset))
     residual = _product(rows, offset) - right
-    off = np.max(np.abs(residual), axis=1, initial=0.0)
-    return basis, offset, off <= CONTRADICTION
+    return basis, offset, np.all(np.abs(residual) <= CONTRADICTION, axis=1)
 
 
 def _product(matrices: Array, vectors: Array) -> Array:
@@ -111,7 +110,7 @@ def _product(matrices: Array, vectors: Array) -> Array:
 
 
 def spans_of(rover: Rover, machine: Machine, count: int) -> Array:
-    """(count,) the largest distance between two shapes at home, m, as `Rover.wheel_span`; a lone one's diameter."""
+    """(count,) m, the largest distance between two shapes at home, as `Rover.wheel_span`."""
     home = np.broadcast_to(rover.neutral, (len(machine.masses), rover.model.nv))
     placed, _ = merge(machine, home, ())
     _, centers = points(placed, machine.shape_joints, machine.centers)

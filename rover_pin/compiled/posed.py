@@ -26,9 +26,9 @@ def posed_dtype(size: int) -> np.dtype[np.void]:
     """Room for a machine of at most `size` bodies, free coordinates, shapes and so on.
 
     Records, because kernels take one as one pointer; sizes by tiers, so that one compilation serves many
-    rovers. Every body's frame is turned so that its joint's axis is its z axis, which makes a joint's turn two
-    columns to mix. Free coordinates z: the base's height, pitch and roll, then passive joints. One-sided rows
-    are numbered as on the plain path: a contact a shape, then stops, then struts' stops.
+    rovers. Every body's frame is turned so that its joint's axis is its z axis, which makes a joint's turn
+    two columns to mix. Free coordinates z: the base's height, pitch and roll, then passive joints. One-sided
+    rows are numbered as on the plain path: a contact a shape, then stops, then struts' stops.
     """
     real, whole = np.float64, np.int64
     return np.dtype(
@@ -88,8 +88,8 @@ def posed_dtype(size: int) -> np.dtype[np.void]:
 
 
 COUNTS = (
-    "n_bodies", "n_free", "n_shapes", "n_stops", "n_loops", "n_loop_rows", "n_torsions", "n_struts", "n_belly",
-    "n_outline", "n_skin", "n_active", "n_held_loops",
+    "n_bodies", "n_free", "n_shapes", "n_stops", "n_loops", "n_loop_rows", "n_torsions", "n_struts",
+    "n_belly", "n_outline", "n_skin", "n_active", "n_held_loops",
 )  # fmt: skip
 """How many of each a record holds."""
 

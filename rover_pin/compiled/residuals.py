@@ -79,13 +79,14 @@ def off_skin(p: Posed, ground: Ground, params: Array, table: Array, w: Work, s: 
     off_surface = abs(tabled(ground.kind, table, params, x, y)[0] - z)
     frame = (ax, ay, az, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     away = distance(0, frame, cx, cy, cz, p.rings[s], x, y, z)
-    return max(off_surface, abs(away - p.treads[s]))
+    worst: float = max(off_surface, abs(away - p.treads[s]))
+    return worst
 
 
 @formula
 def recompute(
-    p: Posed, ground: Ground, params: Array, table: Array, w: Work, z: Array, cy: float, sy: float, loads: Array,
-    residuals: Array,
+    p: Posed, ground: Ground, params: Array, table: Array, w: Work, z: Array, cy: float, sy: float,
+    loads: Array, residuals: Array,
 ) -> None:  # fmt: skip
     """Loads (s,) [N] and residuals (4,) of a pose whose forces are known."""
     shapes, count, weight = p.n_shapes, w.n_touching, p.weight

@@ -21,9 +21,10 @@ Search = Any
 
 @cache
 def contact_search() -> Search:
-    """`find_contacts` for rings: (kind, table, params, spacing, center, axis, ring, tread, window, out) -> rows.
+    """`find_contacts` for rings.
 
-    Table and params as a Terrain has them, read-only; center and axis (3,), out (K, 7).
+    It takes kind, table, params, spacing, center, axis, ring, tread, window, out: table and params as a
+    Terrain has them, read-only; center and axis (3,), out (K, 7).
     """
     line, real = types.Array(types.float64, 1, "C"), types.float64
     fixed = [types.Array(real, dims, "C", readonly=True) for dims in (2, 1)]

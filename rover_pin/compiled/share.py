@@ -74,7 +74,8 @@ def share(p: Posed, w: Work, z: Array, cy: float, sy: float) -> int:
         if w.forces[i] < NEGATIVE * p.weight:
             return -1
         w.forces[i] = max(w.forces[i], 0.0)
-    return max(held - n, 0)
+    redundant: int = max(held - n, 0)
+    return redundant
 
 
 @formula

@@ -1,4 +1,4 @@
-"""The equations of standing at one pose: contacts, rows, loops and loads, as the plain path's `State` has them."""
+"""The equations of standing at one pose: contacts, rows, loops and loads, as in the plain path's `State`."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def search_contact(
         w.rot, w.org, b, p.centers[s, 0], p.centers[s, 1], p.centers[s, 2]
     )
     axis[0], axis[1], axis[2] = turn(w.rot, b, p.axes[s, 0], p.axes[s, 1], p.axes[s, 2])
-    count = search(
+    count: int = search(
         ground.kind, table, params, ground.spacing, center, axis, p.rings[s], p.treads[s], window, found
     )
     w.found[:] = found
@@ -89,7 +89,7 @@ def force_row(p: Posed, w: Work, cy: float, sy: float, s: int) -> None:
 @inlined
 def coordinate(p: Posed, w: Work, b: int, z: Array) -> float:
     """The coordinate of body b's joint at z [rad or m]."""
-    q = p.offsets[b]
+    q: float = p.offsets[b]
     for k in range(3, p.n_free):
         q += p.basis[b, k] * z[k]
     return q

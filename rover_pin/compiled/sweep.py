@@ -21,7 +21,7 @@ FINE = 0.3
 """Distance of samples, over the map's spacing; at most a tenth of the shape's size."""
 
 DOUBTFUL = 0.03
-"""Share of the shape's size: ground farther than this from the skin at every sample of a stretch is no contact."""
+"""Share of the shape's size: where the ground is farther than this from the skin there is no contact."""
 
 SAME = 1e-3
 """Share of the shape's size within which two places are one contact, as in the contact search."""
@@ -31,7 +31,7 @@ TRACKED = 12
 
 @inlined
 def estimate(kind: int, params: Array, table: Array, px: float, py: float, pz: float) -> float:
-    """Distance of a point to the ground [m], one Newton step from the place below it; negative in the ground."""
+    """Distance of a point to the ground [m], one Newton step from the place below it; negative within."""
     h, hx, hy, hxx, hxy, hyy = tabled(kind, table, params, px, py)
     v = pz - h
     a11, a12, a22 = 1.0 + hx * hx - v * hxx, hx * hy - v * hxy, 1.0 + hy * hy - v * hyy
@@ -69,8 +69,8 @@ def sweep(
 ) -> int:  # fmt: skip
     """Look for places of a ring-shaped skin that come as near to the ground as a contact found.
 
-    Samples of the ring are measured to the ground; every stretch of them that is in doubt is followed from its
-    nearest sample to the contact it belongs to.
+    Samples of the ring are measured to the ground; every stretch of them that is in doubt is followed from
+    its nearest sample to the contact it belongs to.
 
     Args:
         ground: the surface's record.
@@ -89,7 +89,7 @@ def sweep(
         contact: (7,) gap, point, normal of the contact found; receives a deeper one.
 
     Returns:
-        LEAST, DEEPER (another place is in the ground), or UNDECIDED (another place touches, or cannot be told).
+        LEAST, DEEPER (another place is in the ground), or UNDECIDED (another touches, or cannot be told).
     """
     size = ring + tread
     frame = basis(0, ring, ax, ay, az)

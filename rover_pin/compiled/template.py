@@ -1,4 +1,4 @@
-"""A posture on level ground, taken from the plain path: which supports carry there, and where it starts from."""
+"""A posture on level ground, from the plain path: which supports carry there, and where it starts."""
 
 from __future__ import annotations
 

@@ -22,8 +22,9 @@ def track(
     (Px - x) + (Pz - h) hx = 0 and (Py - y) + (Pz - h) hy = 0: the equations of `rover_pin.contact.refine`
     with the third, T.N = 0, solved in closed form, and the same elimination. Regular at any depth.
 
-    One step is taken (where the equations are no minimum's, to the foot of P along N), and height, normal and distance are carried along it to second order. The distance
-    (P - W).n - tread is stationary in (x, y), so that it errs by the square of the step.
+    One step is taken (where the equations are no minimum's, to the foot of P along N), and height, normal and
+    distance are carried along it to second order. The distance (P - W).n - tread is stationary in (x, y), so
+    that it errs by the square of the step.
 
     Returns:
         gap, W (3), n (3), length of the step [m].

@@ -78,6 +78,7 @@ def look_below(
     Args:
         p: the machine.
         ground: the surface.
+        params: its parameters.
         table: its table.
         tiles: its bounds.
         skin: (h, 4) points in the joint frames of `p.skin_bodies`, and their radii [m].
