@@ -67,12 +67,9 @@ def refuse_answers(answers: Mapping[str, Mapping[str, str] | Exception]) -> None
         StudyError: names the worker and what is missing there or differs.
     """
     for worker, answer in answers.items():
-        if isinstance(answer, ImportError):
-            what = f"cannot import rover_pin: {answer}"
-            raise StudyError(what, element=f"worker {worker}", cure=CURE)
         if isinstance(answer, OSError):  # it left while it was asked
             continue
         if isinstance(answer, Exception):
-            what = f"cannot say what it is: {type(answer).__name__}: {answer}"
-            raise StudyError(what, element=f"worker {worker}", cure=CURE)
+            why = str(answer) if type(answer) is Exception else f"{type(answer).__name__}: {answer}"
+            raise StudyError(f"cannot run rover_pin: {why}", element=f"worker {worker}", cure=CURE)
         refuse_unlike(answer, makings(), worker)

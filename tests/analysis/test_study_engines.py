@@ -175,8 +175,8 @@ def test_workers_that_differ_are_named() -> None:
             f"has numpy 1.0 (here {here['numpy']}), numba none (here {here['numba']})",
         ),
         ({**here, SOURCES: "0123"}, f"has rover_pin's sources 0123 (here {here[SOURCES]})"),
-        (ModuleNotFoundError("No module named 'rover_pin'"), "cannot import rover_pin: No module named"),
-        (RuntimeError("no room"), "cannot say what it is: RuntimeError: no room"),
+        (Exception("ModuleNotFoundError(...)"), "cannot run rover_pin: ModuleNotFoundError(...)"),
+        (RuntimeError("no room"), "cannot run rover_pin: RuntimeError: no room"),
     ]
     for answer, message in cases:
         with pytest.raises(StudyError, match=f"^{re.escape(f'worker tcp://b:1: {message}')}") as caught:
