@@ -70,11 +70,11 @@ def own_cluster(workers: int) -> Iterator[Client]:
         yield client
 
 
-def cluster(resources: Resources) -> contextlib.AbstractContextManager[Client]:
-    """The cluster that the resources name, else one of this machine."""
+def cluster(resources: Resources, chunks: int) -> contextlib.AbstractContextManager[Client]:
+    """The cluster that the resources name, else one of this machine, with no more workers than chunks."""
     if resources.scheduler is not None:
         return connected(resources.scheduler, resources.workers)
-    return own_cluster(resources.workers or cores())
+    return own_cluster(min(resources.workers or cores(), chunks))
 
 
 def _await_workers(client: Client, address: str, wanted: int) -> None:

@@ -55,9 +55,11 @@ class Dask:
             SolverError: a case failed, a chunk killed its workers, or the scheduler was lost.
         """
         _need_distributed()
+        if not chunks:
+            return
         from rover_pin.analysis.engines._dask_cluster import cluster
 
-        with cluster(resources) as client, _Crew(client, job) as crew:
+        with cluster(resources, len(chunks)) as client, _Crew(client, job) as crew:
             feed(chunks, crew.begin, crew.ahead, done)
 
 
