@@ -12,8 +12,9 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -59,6 +60,14 @@ def cluster() -> Iterator[Any]:
         yield made
 
 
+@pytest.fixture
+def address(cluster: Any) -> str:
+    """The cluster's scheduler, once both workers are there (again)."""
+    with distributed.Client(cluster, set_as_default=False) as client:
+        client.wait_for_workers(2, timeout=60)
+    return str(cluster.scheduler_address)
+
+
 @contextlib.contextmanager
 def command(code: str, which: str, *words: str, says: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """A scheduler or worker by its command line; entered when it says so, with what it said."""
@@ -88,18 +97,20 @@ def test_and_on_processes(plain: xr.Dataset) -> None:
     assert_same_bits(plain, rough_study().run(engine="process", workers=2, chunk=7))
 
 
-def test_a_scheduler_keeps_nothing_of_a_run(plain: xr.Dataset, cluster: Any, tmp_path: Path) -> None:
-    address, out = cluster.scheduler_address, tmp_path / "out.nc"
+def test_a_scheduler_keeps_nothing_of_a_run(
+    plain: xr.Dataset, cluster: Any, address: str, tmp_path: Path
+) -> None:
+    out = tmp_path / "out.nc"
     assert engine("dask", Resources(scheduler=address)).workers(Resources(scheduler=address)) == 2
     result = rough_study().run(engine="dask", scheduler=address, chunk=9, out=out)
     assert_same_bits(plain, result)
     xr.testing.assert_identical(result, read(out))
     assert [entry.name for entry in tmp_path.iterdir()] == ["out.nc"]
-    assert cluster.scheduler.tasks == {}
+    _wait_until(lambda: not cluster.scheduler.tasks)
     assert [name for name in cluster.scheduler.worker_plugins if name.startswith("rover_pin")] == []
 
 
-def test_a_killed_worker_is_made_up_for(plain: xr.Dataset, cluster: Any) -> None:
+def test_a_killed_worker_is_made_up_for(plain: xr.Dataset, cluster: Any, address: str) -> None:
     victim = cluster.workers[0]
     killed: list[int] = []
 
@@ -108,39 +119,35 @@ def test_a_killed_worker_is_made_up_for(plain: xr.Dataset, cluster: Any) -> None
             killed.append(victim.pid)
             os.kill(victim.pid, signal.SIGKILL)
 
-    result = rough_study().run(
-        engine="dask", scheduler=cluster.scheduler_address, workers=2, chunk=2, progress=kill
-    )
+    result = rough_study().run(engine="dask", scheduler=address, workers=2, chunk=2, progress=kill)
     assert_same_bits(plain, result)
     assert killed
     assert killed[0] != victim.pid
 
 
 def test_a_chunk_that_kills_its_workers_is_named(
-    cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    cluster: Any, address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(cluster.scheduler, "allowed_failures", 0)
     with distributed.Client(cluster, set_as_default=False) as client:
-        client.wait_for_workers(2)
         client.run(die_at, 31)
     with pytest.raises(SolverError) as caught:
-        rough_study().run(
-            engine="dask", scheduler=cluster.scheduler_address, workers=2, chunk=1, out=tmp_path / "o.nc"
-        )
+        rough_study().run(engine="dask", scheduler=address, workers=2, chunk=1, out=tmp_path / "o.nc")
     cure = "look at the memory it takes; what is finished is kept for --resume"
     assert re.match(
         rf"^cases 3\d to 3\d: workers died of them, the last at tcp://127.0.0.1:\d+; {cure}$",
         str(caught.value),
     )
+    with distributed.Client(cluster, set_as_default=False) as client:
+        client.run(break_at, None, on_error="ignore")
     assert len(list((tmp_path / "o.nc.parts").glob("*.npz"))) >= 25
 
 
 def test_a_broken_case_is_named_as_by_the_other_engines(
-    plain: xr.Dataset, cluster: Any, tmp_path: Path
+    plain: xr.Dataset, cluster: Any, address: str, tmp_path: Path
 ) -> None:
-    study, out, address = rough_study(), tmp_path / "out.nc", cluster.scheduler_address
+    study, out = rough_study(), tmp_path / "out.nc"
     with distributed.Client(cluster, set_as_default=False) as client:
-        client.wait_for_workers(2)
         client.run(break_at, 31)
     try:
         with pytest.raises(SolverError, match=r"^case 31: failed: ZeroDivisionError: no lever$"):
@@ -156,8 +163,8 @@ def test_a_broken_case_is_named_as_by_the_other_engines(
     assert_same_bits(plain, resumed)
 
 
-def test_an_interrupted_run_goes_on(plain: xr.Dataset, cluster: Any, tmp_path: Path) -> None:
-    study, out, address = rough_study(), tmp_path / "out.nc", cluster.scheduler_address
+def test_an_interrupted_run_goes_on(plain: xr.Dataset, cluster: Any, address: str, tmp_path: Path) -> None:
+    study, out = rough_study(), tmp_path / "out.nc"
 
     def interrupt(finished: int, count: int) -> None:
         if finished >= 20:
@@ -166,10 +173,7 @@ def test_an_interrupted_run_goes_on(plain: xr.Dataset, cluster: Any, tmp_path: P
     with pytest.raises(KeyboardInterrupt):
         study.run(engine="dask", scheduler=address, chunk=4, out=out, progress=interrupt)
     assert not out.exists()
-    deadline = time.monotonic() + 10
-    while cluster.scheduler.tasks:
-        assert time.monotonic() < deadline, "futures were left at the scheduler"
-        time.sleep(0.05)
+    _wait_until(lambda: not cluster.scheduler.tasks)
     told: list[int] = []
     resumed = study.run(
         engine="dask", scheduler=address, out=out, resume=True, progress=lambda done, of: told.append(done)
@@ -179,9 +183,8 @@ def test_an_interrupted_run_goes_on(plain: xr.Dataset, cluster: Any, tmp_path: P
 
 
 def test_a_worker_that_joins_late_is_used_and_one_without_the_package_is_refused(
-    plain: xr.Dataset, cluster: Any
+    plain: xr.Dataset, cluster: Any, address: str
 ) -> None:
-    address = cluster.scheduler_address
     before = set(cluster.scheduler.workers)
     with contextlib.ExitStack() as stack:
 
@@ -197,7 +200,7 @@ def test_a_worker_that_joins_late_is_used_and_one_without_the_package_is_refused
             assert_same_bits(plain, result)
             (late,) = set(cluster.scheduler.workers) - before
             assert client.run(has_worked, workers=[late]) == {late: True}
-    _wait_for(cluster, before)
+    _wait_until(lambda: set(cluster.scheduler.workers) == before)
     said = r"Registered to: +(\S+)"
     with command(BARE, "worker", address, "--no-nanny", "--nthreads=1", says=said):
         (bare,) = set(cluster.scheduler.workers) - before
@@ -207,11 +210,15 @@ def test_a_worker_that_joins_late_is_used_and_one_without_the_package_is_refused
         )
         with pytest.raises(StudyError, match=message):
             rough_study().run(engine="dask", scheduler=address)
-    _wait_for(cluster, before)
+    _wait_until(lambda: set(cluster.scheduler.workers) == before)
 
 
 def test_a_worker_of_another_version_is_refused(
-    cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
+    cluster: Any,
+    address: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    request: pytest.FixtureRequest,
 ) -> None:
     from rover_pin.analysis.engines import _alike
 
@@ -221,8 +228,21 @@ def test_a_worker_of_another_version_is_refused(
     request.addfinalizer(_alike.makings.cache_clear)
     message = rf"^worker tcp://127\.0\.0\.1:\d+: has numpy {re.escape(here['numpy'])} \(here 9\.9\); let all"
     with pytest.raises(StudyError, match=message):
-        rough_study().run(engine="dask", scheduler=cluster.scheduler_address, out=tmp_path / "o.nc")
+        rough_study().run(engine="dask", scheduler=address, out=tmp_path / "o.nc")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_late_worker_of_another_version_ends_the_run_at_its_first_chunk() -> None:
+    from rover_pin.analysis.engines._alike import makings
+    from rover_pin.analysis.engines._dask_worker import Bench
+
+    bench = Bench(b"not unpacked", {**makings(), "numpy": "9.9"})
+    bench.setup(SimpleNamespace(address="tcp://late:1"))
+    message = (
+        rf"^worker tcp://late:1: has numpy {re.escape(makings()['numpy'])} \(here 9\.9\); let all workers"
+    )
+    with pytest.raises(StudyError, match=message):
+        bench.run((0, 1))
 
 
 def test_by_the_command_line_and_a_scheduler_that_goes(
@@ -281,10 +301,9 @@ def test_without_dask_installed(monkeypatch: pytest.MonkeyPatch) -> None:
         rough_study().run(engine="dask")
 
 
-def _wait_for(cluster: Any, workers: set[str]) -> None:
-    """Wait until just these workers are there."""
+def _wait_until(holds: Callable[[], bool]) -> None:
     deadline = time.monotonic() + 30
-    while set(cluster.scheduler.workers) != workers:
+    while not holds():
         assert time.monotonic() < deadline
         time.sleep(0.05)
 
