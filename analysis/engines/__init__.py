@@ -1,4 +1,7 @@
-"""Ways to carry out a job, one module each: a module here with an `ENGINE` is an engine of that name."""
+"""Ways to carry out a job, one module each: a module here with an `ENGINE` is an engine of that name.
+
+Modules that begin with an underscore are what engines share.
+"""
 
 from __future__ import annotations
 
@@ -43,7 +46,11 @@ class Engine(Protocol):
     takes_scheduler: bool
 
     def workers(self, resources: Resources) -> int:
-        """How many chunks run at once."""
+        """How many chunks run at once.
+
+        Raises:
+            StudyError: workers that cannot be had.
+        """
         ...
 
     def run(self, job: Work, chunks: Sequence[Chunk], resources: Resources, done: Done) -> None:
@@ -53,7 +60,7 @@ class Engine(Protocol):
 
 def engine_names() -> list[str]:
     """The engines there are."""
-    return sorted(module.name for module in pkgutil.iter_modules(__path__))
+    return sorted(module.name for module in pkgutil.iter_modules(__path__) if module.name[0] != "_")
 
 
 def engine(name: str, resources: Resources) -> Engine:
@@ -74,4 +81,5 @@ def engine(name: str, resources: Resources) -> Engine:
             value=resources.scheduler,
             cure="leave it out",
         )
+    found.workers(resources)  # a cluster that is not there is found out before anything is written
     return found

@@ -51,7 +51,8 @@ def tiles_of(c: Array, spacing: float, reaches: tuple[float, ...]) -> tuple[Tile
     side = share * spacing
     cells = [_coarser(part, share) for part in fine]
     wide = [[_dilated(part, reach / side) for part in cells] for reach in reaches]
-    return np.nextafter(np.moveaxis(np.array(wide), 1, 3).astype(np.float32), np.float32(np.inf)), side
+    packed = np.ascontiguousarray(np.moveaxis(np.array(wide), 1, 3), dtype=np.float32)
+    return np.nextafter(packed, np.float32(np.inf)), side
 
 
 def _of_cells(c: Array, spacing: float) -> tuple[Array, Array, Array]:

@@ -11,6 +11,7 @@ from rover_pin.compiled.answers import blank
 from rover_pin.compiled.bounds import RINGS
 from rover_pin.compiled.ground import GroundArrays
 from rover_pin.compiled.kernel import settle_all
+from rover_pin.compiled.land import REACH
 from rover_pin.compiled.machine import Machine
 from rover_pin.compiled.pose import Pose, pose
 from rover_pin.compiled.posed import Integers
@@ -22,6 +23,10 @@ from rover_pin.numerics import Array
 
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
+
+
+LEVEL_REACH = 3.0
+"""Share of the span, or rad: held values and designs may put the rover far from where it stands as loaded."""
 
 
 class Groups(NamedTuple):
@@ -74,6 +79,7 @@ def varied(
     records = groups.pose.records
     records["usable"] &= np.all(within, axis=1)
     count = len(values)
+    records["reach"] = LEVEL_REACH
     out = blank(rover, count, False, int(records["n_free"][0]))
     nowhere = np.zeros(count)
     settle_all(
@@ -82,6 +88,7 @@ def varied(
     )  # fmt: skip
     records["usable"] &= (out.code == SETTLED) | (out.code == GROUNDED)
     records["start"][:, : out.z.shape[1]] = out.z
+    records["reach"] = REACH
     return groups
 
 
@@ -115,6 +122,7 @@ def _ready(made: Pose, template: Template, sizes: Array, reach: float, *, same: 
     away = outline_radii(records["outline_bodies"][0, :corners], records["outline"][:, :corners])
     records["outline_fits"] = np.all(away <= reach, axis=1)
     records["usable"] = made.consistent
+    records["reach"] = REACH
     skin = np.zeros((0, 4))
     if same:
         below = template.problem.underside

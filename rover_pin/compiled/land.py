@@ -103,7 +103,7 @@ def land(
             if not elastic_system(p, ground, params, table, w, z, x, y, cy, sy, i == 0):
                 return False, 0.0
         largest, moved = take_step(p, w, z)
-        if not moved <= REACH:
+        if not moved <= p.reach:
             return False, 0.0
         if largest < STEP:
             return True, sign

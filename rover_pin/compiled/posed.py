@@ -76,6 +76,7 @@ def posed_dtype(size: int) -> np.dtype[np.void]:
             ("active", whole, size),  # one-sided rows that carry on level ground, ascending
             ("held_loops", whole, size),  # independent loop rows
             ("sign", real),  # of the determinant of those rows, 0 where they do not determine the pose
+            ("reach", real),  # farthest landing from the start, share of the span or rad
             ("start", real, size),  # free coordinates on level ground at height 0
             ("usable", whole),  # whether cases of this machine can be answered
             ("weight", real),  # N

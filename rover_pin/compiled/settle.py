@@ -7,7 +7,7 @@ import math
 from rover_pin.compiled.bounds import HEIGHT, RINGS, Tiles, sure_within, tile
 from rover_pin.compiled.elastic import is_steady
 from rover_pin.compiled.ground import Ground
-from rover_pin.compiled.land import ITERATIONS, REACH, STEP, land, newton_step, take_step
+from rover_pin.compiled.land import ITERATIONS, STEP, land, newton_step, take_step
 from rover_pin.compiled.posed import Posed
 from rover_pin.compiled.residuals import recompute
 from rover_pin.compiled.search import Search
@@ -82,8 +82,8 @@ def settle_one(
                         search_contact(p, ground, params, table, search, w, p.active[k], 0.0)
                 sign = newton_step(p, w, z, cy, sy)
                 largest, moved = take_step(p, w, z)
-                landed = sign != 0.0 and moved <= REACH and largest < STEP
-                if landed or sign == 0.0 or not moved <= REACH:
+                landed = sign != 0.0 and moved <= p.reach and largest < STEP
+                if landed or sign == 0.0 or not moved <= p.reach:
                     break
         else:
             landed, sign = land(p, ground, params, table, w, z, x, y, cy, sy)

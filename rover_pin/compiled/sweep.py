@@ -48,17 +48,21 @@ def distances(
     ground: Ground, params: Array, table: Array, frame: Frame, cx: float, cy: float, cz: float, ring: float,
     count: int, top: float, far: Array,
 ) -> float:  # fmt: skip
-    """Fill `far` (>= count,) with estimated distances of points evenly around the ring; the least of them.
+    """Fill `far` (count,) with estimated distances of points evenly around the ring; the least of them.
 
-    Infinite where a point is so far above `top`, the highest ground around, that it cannot touch.
+    Infinite where a point is so far above `top`, the highest ground around, that it cannot touch: all but
+    those within an angle of the lowest one.
     """
+    far[:] = math.inf
     least = math.inf
-    for k in range(count):
+    drop = max(-frame[5] * ring, 1e-12)  # of the lowest point below the centre
+    around = math.acos(min(max((cz - top) / drop, -1.0), 1.0)) * count / (2.0 * math.pi)
+    widest = min(int(around), (count - 1) // 2)
+    for k in range(-widest, widest + 1):
         px, py, pz, _, _, _, _, _, _ = place(0, frame, cx, cy, cz, ring, 2.0 * math.pi * k / count)
-        far[k] = math.inf
-        if pz < top:
-            far[k] = estimate(ground.kind, params, table, px, py, pz)
-            least = min(least, far[k])
+        here = estimate(ground.kind, params, table, px, py, pz)
+        far[k] = here
+        least = min(least, here)
     return least
 
 

@@ -17,7 +17,6 @@ import xarray as xr
 
 from rover_pin import Terrain, load, load_bounds, settle, stability
 from rover_pin.analysis import Study
-from rover_pin.analysis.engines import Resources, engine, engine_names
 from rover_pin.analysis.job import INVALID, Runner
 from rover_pin.analysis.plan import wheel_reach
 from rover_pin.analysis.summary import measures, spread, statuses
@@ -249,17 +248,6 @@ def test_a_changed_study_is_not_resumed(tmp_path: Path) -> None:
     other = rough_study(4, gravity="mars")
     with pytest.raises(StudyError, match=r"belongs to another study: changed is gravity, payload or locks; "):
         other.run(out=out, resume=True)
-
-
-def test_engines_there_are() -> None:
-    assert engine_names() == ["process", "serial"]
-    message = "engine: no such engine (got 'dask'); known: process, serial"
-    with pytest.raises(StudyError, match=f"^{re.escape(message)}$"):
-        engine("dask", Resources())
-    with pytest.raises(StudyError, match=r"^scheduler: the engine serial takes no scheduler \(got 'a:1'\)"):
-        engine("serial", Resources(scheduler="a:1"))
-    with pytest.raises(StudyError, match=r"^workers: must be at least 1 \(got 0\)$"):
-        engine("process", Resources(workers=0))
 
 
 def test_the_map_is_shrunk_by_the_wheels() -> None:

@@ -115,7 +115,7 @@ def test_resume_after_an_interrupt(
             [],
             "s.yaml: measures: no such measure (got 'tipp'); did you mean 'tip'",
         ),
-        (SMALL, ["--engine", "dask"], "engine: no such engine (got 'dask'); known: process, serial"),
+        (SMALL, ["--engine", "dusk"], "engine: no such engine (got 'dusk'); did you mean 'dask'?"),
         (SMALL, ["--workers", "0"], "workers: must be at least 1 (got 0)"),
         (SMALL, ["--scheduler", "tcp://a:1"], "scheduler: the engine process takes no scheduler"),
         (SMALL, ["--html", "none/x.html"], "none: there is no such folder; make it first"),
