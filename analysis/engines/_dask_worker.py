@@ -10,7 +10,7 @@ from typing import cast
 
 from distributed import Worker, WorkerPlugin, get_worker
 
-from rover_pin.analysis.engines import Worker
+from rover_pin.analysis.engines import Worker as ChunkWorker
 from rover_pin.analysis.engines._alike import makings, refuse_unlike
 from rover_pin.analysis.job import Chunk
 from rover_pin.analysis.rows import Columns
@@ -24,7 +24,7 @@ class Bench(WorkerPlugin):
         self._pickled = pickled
         self._here = here
         self._address = ""
-        self._runner: Worker | None = None
+        self._runner: ChunkWorker | None = None
 
     def setup(self, worker: Worker) -> None:
         """Take up a place at a worker; the job is unpacked with the first chunk."""

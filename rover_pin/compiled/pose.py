@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from rover_pin.statics.problem import Problem
 
 YAW = 3
+LEAST_TIER = 12
+
 CONTRADICTION = 1e-9
 """rad or m: held values that a coupling contradicts by more than this are bad input."""
 
@@ -196,11 +198,14 @@ def _records(
 
 
 def tier_of(sizes: Mapping[str, int]) -> int:
-    """The least power of two, 8 or more, that holds a machine of these sizes."""
+    """The least of 12, 24, 48, ... that holds a machine of these sizes."""
     needed = [sizes[name] for name in ("n_bodies", "n_free", "n_shapes", "n_loops", "n_torsions", "n_struts")]
     needed += [-(-sizes["n_stops"] // 2), -(-sizes["n_belly"] // 2), -(-sizes["n_outline"] // 8)]
     needed += [-(-sizes["n_loop_rows"] // 2)]
-    return max(8, 1 << (max(needed) - 1).bit_length())
+    tier = LEAST_TIER
+    while tier < max(needed):
+        tier *= 2
+    return tier
 
 
 def _put(out: NDArray[np.void], name: str, values: Sequence[Any]) -> None:
