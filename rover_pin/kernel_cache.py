@@ -13,6 +13,11 @@ def is_cold(package: Path) -> bool:
     return not any((package / "contact" / "__pycache__").glob("search.find_all*.nbc"))
 
 
+def is_batch_cold(package: Path) -> bool:
+    """Whether the first batch will wait for the compiler (a minute or two)."""
+    return not any((package / "compiled" / "__pycache__").glob("kernel.settle_all*.nbc"))
+
+
 def discard_stale(package: Path) -> int:
     """Remove compiled formulas older than the newest source, and say how many.
 

@@ -20,7 +20,7 @@ def bench(
     from rover_pin.cli.bench_report import print_bench
     from rover_pin.cli.output import announce_compilation, aside, print_json
 
-    announce_compilation()
+    announce_compilation(batch=True)
     report = measure(quick=quick, progress=aside if sys.stderr.isatty() else None)
     if json:
         print_json([row.as_object() for row in report.rows])

@@ -65,7 +65,7 @@ def mobility(
     pull = parse_gravity(gravity)
     ground = Terrain.parse(map_file, spacing=spacing, interpolation=interpolation)
     rover = load_rover(robot, sidecar, package, skip_missing_includes, param)
-    announce_compilation()
+    announce_compilation(batch=True)
     started = time.perf_counter()
     try:
         with progress_bar("cases") as progress:

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rover_pin.kernel_cache import is_cold
+from rover_pin.kernel_cache import is_batch_cold, is_cold
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -58,10 +58,14 @@ def line(text: str) -> None:
     sys.stdout.write(text + "\n")
 
 
-def announce_compilation() -> None:
-    """Tell somebody who waits at a terminal why the first stance takes its time."""
+def announce_compilation(*, batch: bool = False) -> None:
+    """Tell somebody who waits at a terminal why the first stance, or the first batch, takes its time."""
     package = Path(__file__).resolve().parents[1]
-    if sys.stderr.isatty() and is_cold(package):
+    if not sys.stderr.isatty():
+        return
+    if batch and is_batch_cold(package):
+        aside("compiling formulas, once: a minute or two")
+    elif is_cold(package):
         aside("compiling formulas, once: about half a minute")
 
 

@@ -52,7 +52,7 @@ def study(
         )
     started = time.perf_counter()
     try:
-        announce_compilation()
+        announce_compilation(batch=True)
         with progress_bar("cases") as progress:
             data = asked.run(
                 engine=engine,
