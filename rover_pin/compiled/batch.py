@@ -28,7 +28,7 @@ from rover_pin.terrain.surface import CALLABLE
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
 
-MOST_MACHINES = 2048
+MOST_MACHINES = 1024
 """Machines that are made ready at a time: some kilobytes each."""
 
 BLOCK = 2.0

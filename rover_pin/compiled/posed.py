@@ -14,6 +14,8 @@ from rover_pin.numerics import Array
 Integers = NDArray[np.int64]
 
 BASE = 6
+_EYE = np.eye(3)
+
 FREE_OF_BASE = (2, 4, 5)
 """Entries of the configuration that the base leaves free: z, pitch, roll; they lead the free coordinates."""
 
@@ -121,16 +123,18 @@ def merge(machine: Machine, values: Array, moving: Sequence[int]) -> tuple[list[
     bodies = [Bodies(0, True, eye, nothing, -1)]
     for joint in range(2, len(machine.parents)):
         parent = placed[int(machine.parents[joint])]
-        rotation = parent.rotation @ machine.rotations[:, joint]
+        rotation = _product(parent.rotation, machine.rotations[:, joint])
         origin = parent.origin + _turned(parent.rotation, machine.translations[:, joint])
         axis, column = machine.axes[:, joint], BASE + joint - 2
         turns = bool(machine.turning[joint])
         if column in moving:
             along = _frames_along(axis)
-            bodies.append(Bodies(parent.body, turns, rotation @ along, origin, column))
+            bodies.append(Bodies(parent.body, turns, _product(rotation, along), origin, column))
             placed.append(Placed(len(bodies) - 1, np.swapaxes(along, 1, 2), nothing))
+        elif not values[:, column].any():
+            placed.append(Placed(parent.body, rotation, origin))
         elif turns:
-            placed.append(Placed(parent.body, rotation @ _turn(axis, values[:, column]), origin))
+            placed.append(Placed(parent.body, _product(rotation, _turn(axis, values[:, column])), origin))
         else:
             slid = origin + _turned(rotation, axis * values[:, column, None])
             placed.append(Placed(parent.body, rotation, slid))
@@ -183,8 +187,20 @@ def lumps(machine: Machine, placed: Sequence[Placed], count: int) -> tuple[Array
     return masses, moments
 
 
+def _product(one: Array, other: Array) -> Array:
+    """(g or 1, 3, 3) products; a factor that turns nothing is passed over, which changes no bit."""
+    if (other == _EYE).all():
+        return one if len(one) >= len(other) else np.broadcast_to(one, other.shape)
+    if (one == _EYE).all() and len(other) >= len(one):
+        return other
+    result: Array = one @ other
+    return result
+
+
 def _turned(rotation: Array, vector: Array) -> Array:
     """Rows R v of (g or 1, 3, 3) and (g or 1, 3), summed in a fixed order: bits hang on a row alone."""
+    if len(vector) >= len(rotation) and (rotation == _EYE).all():
+        return vector
     result: Array = (
         rotation[:, :, 0] * vector[:, 0, None]
         + rotation[:, :, 1] * vector[:, 1, None]

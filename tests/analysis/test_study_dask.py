@@ -17,6 +17,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 import xarray as xr
 
@@ -37,14 +38,23 @@ BARE = "import sys; sys.modules['rover_pin'] = None; " + COMMAND
 
 
 def rough_study(n: int = 60) -> Study:
-    cases = {"n": n, "robots": 4}
+    cases = {"n": n}
     return Study("rocker_bogie", ROUGH, cases=cases, vary=EVERYWHERE, measures=["tip", "clearance", "loads"])
+
+
+def costly_study() -> Study:
+    """Of a measure that the compiled path does not have: every case goes the plain path by itself."""
+    cases = {"n": 60}
+    return Study("rocker_bogie", ROUGH, cases=cases, vary=EVERYWHERE, measures=["tip", "friction"])
 
 
 def assert_same_bits(one: xr.Dataset, other: xr.Dataset) -> None:
     assert set(one.variables) == set(other.variables)
     for name, values in one.variables.items():
-        assert values.values.tobytes() == other[name].values.tobytes(), name
+        if values.dtype.kind == "f":
+            assert values.values.tobytes() == other[name].values.tobytes(), name
+        else:
+            np.testing.assert_array_equal(values.values, other[name].values, err_msg=str(name))
 
 
 @pytest.fixture(scope="module")
@@ -132,7 +142,7 @@ def test_a_chunk_that_kills_its_workers_is_named(
     with distributed.Client(cluster, set_as_default=False) as client:
         client.run(die_at, 31)
     with pytest.raises(SolverError) as caught:
-        rough_study().run(engine="dask", scheduler=address, workers=2, chunk=1, out=tmp_path / "o.nc")
+        costly_study().run(engine="dask", scheduler=address, workers=2, chunk=1, out=tmp_path / "o.nc")
     cure = "look at the memory it takes; what is finished is kept for --resume"
     assert re.match(
         rf"^cases 3\d to 3\d: workers died of them, the last at tcp://127.0.0.1:\d+; {cure}$",
@@ -143,10 +153,8 @@ def test_a_chunk_that_kills_its_workers_is_named(
     assert len(list((tmp_path / "o.nc.parts").glob("*.npz"))) >= 25
 
 
-def test_a_broken_case_is_named_as_by_the_other_engines(
-    plain: xr.Dataset, cluster: Any, address: str, tmp_path: Path
-) -> None:
-    study, out = rough_study(), tmp_path / "out.nc"
+def test_a_broken_case_is_named_as_by_the_other_engines(cluster: Any, address: str, tmp_path: Path) -> None:
+    study, out = costly_study(), tmp_path / "out.nc"
     with distributed.Client(cluster, set_as_default=False) as client:
         client.run(break_at, 31)
     try:
@@ -160,7 +168,7 @@ def test_a_broken_case_is_named_as_by_the_other_engines(
         engine="dask", scheduler=address, out=out, resume=True, progress=lambda done, of: told.append(done)
     )
     assert told[0] >= 16
-    assert_same_bits(plain, resumed)
+    assert_same_bits(costly_study().run(), resumed)
 
 
 def test_an_interrupted_run_goes_on(plain: xr.Dataset, cluster: Any, address: str, tmp_path: Path) -> None:
