@@ -38,12 +38,20 @@ class CompiledRows:
     @classmethod
     def of(cls, job: Job) -> CompiledRows | None:
         """The compiled path, where it serves this rover, this terrain and every measure asked for."""
-        from rover_pin.compiled import COMPILED_MEASURES, Batch
+        from rover_pin.compiled import COMPILED_MEASURES, Batch, Designs
 
         if not set(job.layout.measures) <= set(COMPILED_MEASURES):
             return None
+        names = tuple(job.cases.questions.parameters)
+        if names and job.traced is None:
+            return None
         batch = Batch(
-            job.rover, job.terrain, gravity=job.gravity, locks=job.locks, measures=job.layout.margins
+            job.rover,
+            job.terrain,
+            gravity=job.gravity,
+            locks=job.locks,
+            measures=job.layout.margins,
+            designs=Designs(job.rover, names, job.traced) if names else None,
         )
         return None if batch.refusal else cls(job, batch)
 

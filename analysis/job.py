@@ -15,6 +15,7 @@ from rover_pin.analysis.draw import Draw
 from rover_pin.analysis.rovers import Rovers
 from rover_pin.analysis.rows import BOUNDS, Columns, Layout, Rows, compact, count_of, cut, joined
 from rover_pin.analysis.words import posture
+from rover_pin.description.trace_expand import TracedText
 from rover_pin.errors import InputError, OffMapError, SolverError, StudyError
 from rover_pin.rover import Rover
 from rover_pin.stability.report import stability
@@ -30,7 +31,10 @@ Chunk = tuple[int, int]
 
 @dataclass(frozen=True)
 class Job:
-    """Everything a case needs; crosses processes whole. The cases are not in it, but what draws them."""
+    """Everything a case needs; crosses processes whole. The cases are not in it, but what draws them.
+
+    `traced` is the robot's description as a function of the parameters that vary, for the compiled path.
+    """
 
     rover: Rover
     terrain: Terrain
@@ -38,6 +42,7 @@ class Job:
     layout: Layout
     gravity: float
     locks: tuple[str, ...]
+    traced: TracedText | None = None
 
     def runner(self) -> Runner:
         """What carries it out in this process."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -25,6 +25,7 @@ from rover_pin.errors import InputError, StudyError, nearest
 from rover_pin.stability.report import inapplicable
 
 if TYPE_CHECKING:
+    from rover_pin.description.trace_expand import TracedText
     from rover_pin.rover import Rover
     from rover_pin.terrain import Terrain
 
@@ -74,6 +75,7 @@ def plan(spec: StudySpec, folder: Path, file: object, given: Rover | None = None
         layout=Layout(wheels, tuple(rover.joints), measures),
         gravity=spec.gravity,
         locks=spec.locks,
+        traced=_traced(rover, spec.vary.parameters, measures),
     )
     made_of = {
         "the cases": cases.digest,
@@ -87,6 +89,29 @@ def plan(spec: StudySpec, folder: Path, file: object, given: Rover | None = None
         **{f"the version of {name}": text for name, text in versions().items()},
     }
     return Plan(job, rover, left_out, made_of)
+
+
+def _traced(rover: Rover, asked: Mapping[str, Quantity], measures: Sequence[str]) -> TracedText | None:
+    """The robot's description as a function of its parameters, for the compiled path, or None.
+
+    Found out once and here, at designs that hang on nothing but the study, so that no worker needs the files
+    and none decides otherwise.
+    """
+    from rover_pin.compiled import COMPILED_MEASURES, Designs
+
+    if not asked or not set(measures) <= set(COMPILED_MEASURES):
+        return None
+    designs = Designs(rover, tuple(asked))
+    if designs.refusal:
+        return None
+    ends = {name: np.array(quantity.ends) for name, quantity in asked.items()}
+    try:
+        designs.machines(
+            {name: np.array([low, 0.5 * (low + high), high]) for name, (low, high) in ends.items()}
+        )
+    except InputError:
+        return None
+    return designs.traced
 
 
 def _corner_rovers(plain: Rover, asked: Mapping[str, Quantity], file: object) -> list[Rover]:

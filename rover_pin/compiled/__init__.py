@@ -6,6 +6,7 @@ tree walk, the Newton loop and the following of contacts from pose to pose are t
 
 from rover_pin.compiled.answers import COMPILED_MEASURES, Answers
 from rover_pin.compiled.batch import Batch
+from rover_pin.compiled.designs import Designs
 from rover_pin.compiled.settle import GROUNDED, OFF_MAP, OPEN, SETTLED
 
-__all__ = ["COMPILED_MEASURES", "GROUNDED", "OFF_MAP", "OPEN", "SETTLED", "Answers", "Batch"]
+__all__ = ["COMPILED_MEASURES", "GROUNDED", "OFF_MAP", "OPEN", "SETTLED", "Answers", "Batch", "Designs"]

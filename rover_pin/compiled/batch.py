@@ -53,6 +53,7 @@ class Batch:
         gravity: m/s2.
         locks: passive joints that are locked.
         measures: of COMPILED_MEASURES.
+        designs: of the rover, for parameters that vary; made from its files where silent.
 
     Attributes:
         refusal: why the kernels cannot serve this rover or terrain, so that every case is left open; else "".
@@ -69,6 +70,7 @@ class Batch:
         gravity: float = 9.81,
         locks: Sequence[str] = (),
         measures: Sequence[str] = (),
+        designs: Designs | None = None,
     ) -> None:
         for name in measures:
             if name not in COMPILED_MEASURES:
@@ -82,7 +84,7 @@ class Batch:
         self.refusal = _refusal(rover, terrain)
         self._templates: dict[object, Template | None] = {}
         self._single: dict[object, Groups] = {}
-        self._designs: dict[tuple[str, ...], Designs] = {}
+        self._designs = {} if designs is None else {designs.names: designs}
 
     def answer(
         self,
