@@ -38,7 +38,7 @@ class CompiledRows:
     @classmethod
     def of(cls, job: Job) -> CompiledRows | None:
         """The compiled path, where it serves this rover, this terrain and every measure asked for."""
-        from rover_pin.compiled import COMPILED_MEASURES, Batch, Designs
+        from rover_pin.compiled import COMPILED_MEASURES, Batch
 
         if not set(job.layout.measures) <= set(COMPILED_MEASURES):
             return None
@@ -51,7 +51,7 @@ class CompiledRows:
             gravity=job.gravity,
             locks=job.locks,
             measures=job.layout.margins,
-            designs=Designs(job.rover, names, job.traced) if names else None,
+            **_designs(job, names),
         )
         return None if batch.refusal else cls(job, batch)
 
@@ -69,6 +69,15 @@ class CompiledRows:
             parameters=cases.parameters or None,
         )
         return Answered(as_columns(answers, self._layout), np.flatnonzero(answers.code == OPEN))
+
+
+def _designs(job: Job, names: tuple[str, ...]) -> dict[str, Any]:
+    """What `Batch` is told of parameters that vary."""
+    if not names:
+        return {}
+    from rover_pin.compiled import Designs
+
+    return {"designs": Designs(job.rover, names, job.traced)}
 
 
 def as_columns(answers: Answers, layout: Layout) -> Columns:

@@ -97,9 +97,11 @@ def _traced(rover: Rover, asked: Mapping[str, Quantity], measures: Sequence[str]
     Found out once and here, at designs that hang on nothing but the study, so that no worker needs the files
     and none decides otherwise.
     """
+    if not asked:
+        return None
     from rover_pin.compiled import COMPILED_MEASURES, Designs
 
-    if not asked or not set(measures) <= set(COMPILED_MEASURES):
+    if not set(measures) <= set(COMPILED_MEASURES):
         return None
     designs = Designs(rover, tuple(asked))
     if designs.refusal:
