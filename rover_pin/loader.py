@@ -7,6 +7,8 @@ import functools
 from collections.abc import Mapping
 from pathlib import Path
 
+import numpy as np
+
 from rover_pin.description import catalogue
 from rover_pin.description.actuation import actuated_joints
 from rover_pin.description.couplings import gather_couplings
@@ -21,6 +23,7 @@ from rover_pin.description.recipe import Recipe
 from rover_pin.description.shapes import Placer
 from rover_pin.description.sidecar import Sidecar, load_sidecar, read_sidecar
 from rover_pin.description.stated import checked_postures, lockable_joints, resolve_springs
+from rover_pin.mechanism import Kinematics
 from rover_pin.rover import Rover
 
 
@@ -132,7 +135,7 @@ def assemble(recipe: Recipe) -> Rover:
         couplings=tuple(c.resolve(columns, model.nv, file=file) for c in couplings),
         loops=tuple(loop.resolve(model, file=file) for loop in sidecar.loops),
         springs=resolve_springs(sidecar, columns, model, file),
-        tracks=(),
+        tracks=(),  # wrapped below, around the wheels as they stand at home
         wheels=touching.wheels,
         feet=touching.feet,
         belly=touching.belly,
@@ -143,4 +146,15 @@ def assemble(recipe: Recipe) -> Rover:
             lambda: read_geometry(made.tree, model, find_mesh, touching.wheel_links)
         ),
     )
+    rover = _with_tracks(rover, sidecar)
     return rover.with_payload(recipe.payload) if recipe.payload else rover
+
+
+def _with_tracks(rover: Rover, sidecar: Sidecar) -> Rover:
+    """The rover with its tracks around the wheels as they stand at home."""
+    if not sidecar.tracks:
+        return rover
+    at = Kinematics(rover.model, rover.model.createData(), np.array(rover.neutral))
+    wheels = {wheel.name: wheel for wheel in rover.wheels}
+    tracks = tuple(spec.resolve(at, wheels, file=rover.sidecar_path) for spec in sidecar.tracks)
+    return dataclasses.replace(rover, tracks=tracks)

@@ -19,7 +19,7 @@ from rover_pin.description.geometry import BodyPoint, Geometry, Visual
 from rover_pin.description.model import BASE_DOF
 from rover_pin.description.recipe import Payload, Recipe
 from rover_pin.info import describe, info
-from rover_pin.mechanism import Coupling, Loop, Spring
+from rover_pin.mechanism import Coupling, FrameSpring, Loop, OneSided, Spring, Track
 from rover_pin.mechanism.frames import find_frame
 from rover_pin.mobility import Mobility, measure_mobility
 from rover_pin.numerics import Array, frozen
@@ -66,7 +66,7 @@ class Rover:
     couplings: tuple[Coupling, ...]
     loops: tuple[Loop, ...]
     springs: tuple[Spring, ...]
-    tracks: tuple[Any, ...]
+    tracks: tuple[Track, ...]
     wheels: tuple[Wheel, ...]
     feet: tuple[Foot, ...]
     belly: tuple[BodyPoint, ...]
@@ -115,6 +115,11 @@ class Rover:
     def shapes(self) -> tuple[Wheel | Foot, ...]:
         """Wheels, then feet."""
         return (*self.wheels, *self.feet)
+
+    @cached_property
+    def one_sided(self) -> tuple[OneSided, ...]:
+        """Elements that bind one way: frame springs by their stops, then tracks."""
+        return (*(spring for spring in self.springs if isinstance(spring, FrameSpring)), *self.tracks)
 
     @property
     def visuals(self) -> tuple[Visual, ...]:
@@ -167,7 +172,8 @@ class Rover:
         Raises:
             MechanismError: a loop that cannot close.
         """
-        return measure_mobility(self.model, self.couplings, self.loops, self.neutral, len(BASE_DOF))
+        tying = [loop for loop in self.loops if loop.type != "level"]  # that one holds the base
+        return measure_mobility(self.model, self.couplings, tying, self.neutral, len(BASE_DOF))
 
     def resolve_posture(self, posture: str | Mapping[str, float] | None = "home") -> dict[str, float]:
         """Joint values of a posture given by name or as a mapping; joints it does not name are left out.

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, FiniteFloat, Tag, field_validator
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, FiniteFloat, Tag
 
 from rover_pin.description.parameters import ParameterSpec
 from rover_pin.description.reading import parse_yaml, validated
@@ -20,7 +20,7 @@ from rover_pin.description.specs import (
     WheelSpec,
 )
 from rover_pin.errors import SidecarError
-from rover_pin.mechanism import CouplingSpec, FrameSpringSpec, JointSpringSpec, LoopSpec
+from rover_pin.mechanism import CouplingSpec, FrameSpringSpec, JointSpringSpec, LoopSpec, TrackSpec
 
 SCHEMA: Literal[1] = 1
 _GEPETTO = ("closed_loop", "type", "name_mot")
@@ -57,14 +57,7 @@ class Sidecar(BaseModel):
     inertials: dict[str, InertialSpec] = {}
     postures: dict[str, dict[str, FiniteFloat]] = {}
     parameters: dict[str, ParameterSpec] = {}
-    tracks: tuple[dict[str, Any], ...] = ()
-
-    @field_validator("tracks")
-    @classmethod
-    def _none(cls, value: tuple[dict[str, Any], ...]) -> tuple[dict[str, Any], ...]:
-        if value:
-            raise ValueError("this version builds no tracks; leave the list empty")
-        return value
+    tracks: tuple[TrackSpec, ...] = ()
 
 
 @functools.lru_cache(maxsize=64)
@@ -90,7 +83,7 @@ def read_sidecar(text: str, file: object) -> Sidecar:
         )
     present = {key: value for key, value in data.items() if value is not None}
     sidecar = validated(Sidecar, present, node, file)
-    for key in ("loops", "couplings", "springs"):
+    for key in ("loops", "couplings", "springs", "tracks"):
         _once([spec.name for spec in getattr(sidecar, key)], key, file)
     return sidecar
 

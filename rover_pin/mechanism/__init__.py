@@ -1,4 +1,4 @@
-"""What URDF cannot say: couplings, loops, springs and locks, one element a file.
+"""What URDF cannot say: couplings, loops, springs, tracks and locks, one element a file.
 
 A new element is one file: its piece of the sidecar's schema (a pydantic model with `resolve`), and a class
 that offers `Bilateral`, `OneSided` or `Elastic` rows (`element.py`). Statics and kinematics read only those.
@@ -19,6 +19,7 @@ from rover_pin.mechanism.spring import (
     Spring,
     SpringSpec,
 )
+from rover_pin.mechanism.track import Track, TrackSpec
 
 __all__ = [
     "Bilateral",
@@ -39,5 +40,7 @@ __all__ = [
     "Reduction",
     "Spring",
     "SpringSpec",
+    "Track",
+    "TrackSpec",
     "reduce_coordinates",
 ]

@@ -8,9 +8,9 @@ import numpy as np
 
 from rover_pin.numerics import Array, formula
 
-BALL, HINGE, PLANAR, WELD, DISTANCE = range(5)
+BALL, HINGE, PLANAR, WELD, DISTANCE, LEVEL = range(6)
 
-SIZES = (3, 5, 2, 6, 1)
+SIZES = (3, 5, 2, 6, 1, 1)
 """Rows of each kind of loop."""
 
 
@@ -24,9 +24,11 @@ def close(
     Ball: e, world axes. Planar: t1.e and t2.e, with t1, t2 across the axis in the first frame. Hinge: the
     ball's rows, and a.t1', a.t2' with a the axis in the first frame and t1', t2' across the same axis in the
     second. Weld: e, and twice the vector part of the quaternion of R1' R2. Distance: |e| - length.
+    Level: the height of the axis in the first frame, which is to be horizontal; the second frame counts for
+    nothing.
 
     Args:
-        kind: BALL, HINGE, PLANAR, WELD or DISTANCE.
+        kind: BALL, HINGE, PLANAR, WELD, DISTANCE or LEVEL.
         across: (3, 3) columns t1, t2 and the axis, in a frame's coordinates.
         length: m, of a distance loop.
         o1: (3,) m, the first frame's origin, world.
@@ -39,6 +41,12 @@ def close(
         jacobian: (rows, n) receives its derivative.
     """
     n = j1.shape[1]
+    if kind == LEVEL:
+        ax, ay, az = _axis(r1, across, 2)
+        residual[0] = az
+        for k in range(n):
+            jacobian[0, k] = ay * j1[3, k] - ax * j1[4, k]
+        return
     ex, ey, ez = o2[0] - o1[0], o2[1] - o1[1], o2[2] - o1[2]
     if kind == DISTANCE:
         far = math.sqrt(ex * ex + ey * ey + ez * ez)

@@ -1,4 +1,7 @@
-"""Closed loops: two frames of the tree that meet as by a ball, a hinge, a pin in a plane, a weld or a rod."""
+"""Closed loops: two frames of the tree that meet as by a ball, a hinge, a pin in a plane, a weld or a rod.
+
+And what holds a frame to the world in the same way: an axis that stays level.
+"""
 
 from __future__ import annotations
 
@@ -14,15 +17,18 @@ from rover_pin.mechanism.frames import BodyFrame, FrameSpec, resolve_pair
 from rover_pin.mechanism.kinematics import Kinematics
 from rover_pin.numerics import Array, frozen
 
-LoopType = Literal["ball", "hinge", "planar", "weld", "distance"]
+LoopType = Literal["ball", "hinge", "planar", "weld", "distance", "level"]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 
-KINDS: tuple[LoopType, ...] = ("ball", "hinge", "planar", "weld", "distance")
+KINDS: tuple[LoopType, ...] = ("ball", "hinge", "planar", "weld", "distance", "level")
 """Types in the order of `rover_pin.mechanism.closure`."""
 
 
 class LoopSpec(BaseModel):
-    """`{name: left_link, frames: [bar_l, rocker_l], type: ball}`; also axis, length, at, tolerance."""
+    """`{name: left_link, frames: [bar_l, rocker_l], type: ball}`; also axis, length, at, tolerance.
+
+    A level loop has one frame: `{name: symmetry, type: level, frame: base_link, axis: [0, 1, 0]}`.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -34,9 +40,24 @@ class LoopSpec(BaseModel):
     at: Literal["zero"] | None = None
     tolerance: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] = 1e-6
 
+    @model_validator(mode="before")
+    @classmethod
+    def _of_one_frame(cls, data: Any) -> Any:
+        if not isinstance(data, dict):
+            return data
+        level = data.get("type") == "level"
+        if level and ("frames" in data or "frame" not in data):
+            raise ValueError("a level loop has one `frame`, and no `frames`")
+        if not level and "frame" in data:
+            raise ValueError("only a level loop has one `frame`; name two `frames`")
+        if level:
+            data = {**data, "frames": (data["frame"], data["frame"])}
+            del data["frame"]
+        return data
+
     @model_validator(mode="after")
     def _complete(self) -> LoopSpec:
-        needs_axis = self.type in ("hinge", "planar")
+        needs_axis = self.type in ("hinge", "planar", "level")
         if needs_axis and self.axis is None:
             raise ValueError(f"a {self.type} loop needs `axis`, in the first frame")
         if not needs_axis and self.axis is not None:
@@ -58,7 +79,12 @@ class LoopSpec(BaseModel):
             SidecarError: a frame that the model does not have, or both on one body.
         """
         element = f"loops.{self.name}"
-        first, second = resolve_pair(model, self.frames, "frames", file=file, element=element)
+        if self.type == "level":
+            spec = self.frames[0]
+            frame = FrameSpec(link=spec) if isinstance(spec, str) else spec
+            first = second = frame.resolve(model, file=file, element=element)
+        else:
+            first, second = resolve_pair(model, self.frames, "frames", file=file, element=element)
         length = self.length or 0.0
         if self.at == "zero":
             zero = Kinematics(model, model.createData(), np.zeros(model.nv))
@@ -80,7 +106,7 @@ class Loop:
 
     Attributes:
         name: as in the sidecar.
-        type: one of ball, hinge, planar, weld, distance.
+        type: one of ball, hinge, planar, weld, distance, level.
         first, second: the frames.
         across: (3, 3) columns t1, t2 and the axis, in a frame's coordinates.
         length: m, of a distance loop.

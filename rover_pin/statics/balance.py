@@ -77,8 +77,8 @@ def balance(stance: Stance) -> Balance:
         for sign, limit in ((1.0, rover.lower[column]), (-1.0, rover.upper[column])):
             if np.any(basis[column]) and abs(q[column] - limit) <= STOPPED:
                 internal.append((joint, sign * basis[column], 0.0))
-    for element in (*rover.springs, *rover.tracks):
-        if hasattr(element, "slack") and element.slack(at) <= STOPPED:
+    for element in rover.one_sided:
+        if element.slack(at) <= STOPPED:
             internal.append((element.name, element.slack_gradient(at) @ basis, 0.0))
     size = basis.shape[1]
     return Balance(

@@ -102,7 +102,7 @@ class Problem:
         self._found = np.empty((len(rover.shapes), CONTACTS_PER_SHAPE, 7))
         self._counts = np.zeros(len(rover.shapes), dtype=np.int64)
         self.elastics: list[Elastic] = list(rover.springs)
-        self.one_sided: list[OneSided] = [e for e in (*rover.springs, *rover.tracks) if hasattr(e, "slack")]
+        self.one_sided: tuple[OneSided, ...] = rover.one_sided
         self._index_stops()
         self.lengths: NDArray[np.bool_] = ~np.array(rover.turning)[list(reduction.columns)]
         self.checking: Any = rover.model.createData()  # for residuals: nothing of the solver's own

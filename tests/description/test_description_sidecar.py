@@ -75,7 +75,7 @@ def test_unknown_key_inside(text, said):
         ),
         (
             "tracks: [{name: t}]\n",
-            "rover.yaml:2: tracks: this version builds no tracks; leave the list empty",
+            "rover.yaml:2: tracks[0].wheels: missing; state it",
         ),
         ("up: [0, 0]\n", "rover.yaml:2: up[2]: missing; state it"),
         (

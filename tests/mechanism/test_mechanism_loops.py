@@ -205,7 +205,7 @@ def test_a_frames_jacobian_is_the_derivative_of_its_origin():
         ({"type": "weld", "length": 0.3}, "a weld loop has no `length`"),
         ({"type": "distance", "length": 0.0}, "greater than 0"),
         ({"type": "distance", "length": float("nan")}, "finite"),
-        ({"type": "rope"}, "'ball', 'hinge', 'planar', 'weld' or 'distance'"),
+        ({"type": "rope"}, "'ball', 'hinge', 'planar', 'weld', 'distance' or 'level'"),
         ({"at": "home"}, "'zero'"),
         ({"tolerance": 0.0}, "greater than 0"),
         ({"frames": ("a",)}, "frames"),
