@@ -29,6 +29,9 @@ class Bilateral(Protocol):
     def jacobian(self, at: Kinematics) -> Array:
         """dc/dq, (m, nv)."""
 
+    def bend(self, at: Kinematics, multipliers: Array, out: Array) -> None:
+        """Take the sum of multipliers (m,) times second derivatives of c off `out` (nv, nv)."""
+
 
 class OneSided(Protocol):
     """A row s(q) >= 0 whose multiplier is at least zero and complementary: a stop, a cable."""
@@ -43,6 +46,9 @@ class OneSided(Protocol):
     def slack_gradient(self, at: Kinematics) -> Array:
         """ds/dq, (nv,): also the direction of the generalised force of a unit multiplier."""
 
+    def bend_slack(self, at: Kinematics, multiplier: float, out: Array) -> None:
+        """Take multiplier times the second derivative of s off `out` (nv, nv)."""
+
 
 class Elastic(Protocol):
     """A potential: a spring."""
@@ -56,6 +62,9 @@ class Elastic(Protocol):
 
     def force(self, at: Kinematics) -> Array:
         """Generalised force -dV/dq, (nv,) [N or N m]."""
+
+    def bend(self, at: Kinematics, out: Array) -> None:
+        """Add the second derivative of V to `out` (nv, nv)."""
 
     def effort(self, at: Kinematics) -> float:
         """What is reported to people: the force along the spring [N] or the joint's torque [N m]."""

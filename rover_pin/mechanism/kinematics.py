@@ -2,12 +2,43 @@
 
 from __future__ import annotations
 
-from typing import Any
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 import pinocchio as pin
+from numpy.typing import NDArray
 
-from rover_pin.numerics import Array
+from rover_pin.numerics import Array, cross
+
+BASE = 6
+"""Columns of the base: x, y, z, yaw, pitch, roll."""
+
+FIRST_JOINT = 2
+"""Pinocchio's id of the first moving joint: 0 is the universe, 1 the base."""
+
+
+class Columns(NamedTuple):
+    """The tree as columns, one a coordinate; see `rover_pin.mechanism.bending`.
+
+    Attributes:
+        parent: (nv,) the column that a column hangs on, -1 of the first.
+        turn: (nv, 3) axes, world; zero where a column slides.
+        move: (nv, 3) velocity of the point of the column's body at `ref`.
+        ref: (3,) m, world: the base's origin.
+        scratch: (nv, 3).
+    """
+
+    parent: NDArray[np.int64]
+    turn: Array
+    move: Array
+    ref: Array
+    scratch: Array
+
+
+def column_of(joint: int) -> int:
+    """The last column of a joint's body; -1 of the universe."""
+    return -1 if joint == 0 else BASE - 1 + joint - (FIRST_JOINT - 1)
 
 
 class Kinematics:
@@ -29,6 +60,17 @@ class Kinematics:
         pin.computeJointJacobians(model, data, q)
         self._jacobians: dict[int, Array] = {}
         self._frames: dict[tuple[int, ...], tuple[Array, Array]] = {}
+
+    @cached_property
+    def columns(self) -> Columns:
+        """The tree as columns."""
+        parents = list(self.model.parents)[FIRST_JOINT:]
+        chain = [*range(-1, BASE - 1), *(column_of(int(parent)) for parent in parents)]
+        jacobian = self.data.J
+        ref = np.array(self.q[:3])
+        turn = np.ascontiguousarray(jacobian[3:].T)
+        move = jacobian[:3].T + cross(turn, np.broadcast_to(ref, turn.shape))
+        return Columns(np.array(chain, dtype=np.int64), turn, np.ascontiguousarray(move), ref, np.empty_like(turn))
 
     def rotation(self, joint: int) -> Array:
         """(3, 3) rotation of the joint's frame in the world."""

@@ -13,8 +13,9 @@ import pinocchio as pin
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from rover_pin.mechanism.closure import SIZES, close
+from rover_pin.mechanism.closure_bending import bend_loop
 from rover_pin.mechanism.frames import BodyFrame, FrameSpec, resolve_pair
-from rover_pin.mechanism.kinematics import Kinematics
+from rover_pin.mechanism.kinematics import Kinematics, column_of
 from rover_pin.numerics import Array, frozen
 
 LoopType = Literal["ball", "hinge", "planar", "weld", "distance", "level"]
@@ -133,6 +134,17 @@ class Loop:
     def jacobian(self, at: Kinematics) -> Array:
         """(size, nv)."""
         return self._rows(at)[1]
+
+    def bend(self, at: Kinematics, multipliers: Array, out: Array) -> None:
+        """Take the sum of multipliers (size,) times second derivatives of the residual off `out` (nv, nv)."""
+        frames = (self.first, self.second)
+        tree = at.columns
+        bend_loop(
+            KINDS.index(self.type), self.across, tree.parent, tree.turn, tree.move, tree.ref,
+            np.array([column_of(frame.joint) for frame in frames]),
+            np.array([frame.origin(at) for frame in frames]),
+            np.array([frame.axes(at) for frame in frames]), multipliers, tree.scratch, out,
+        )  # fmt: skip
 
     def _rows(self, at: Kinematics) -> tuple[Array, Array]:
         """Residual and Jacobian."""

@@ -10,9 +10,10 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from rover_pin.errors import MechanismError, SidecarError, nearest
+from rover_pin.mechanism.bending import bend_strut
 from rover_pin.mechanism.closure import push, strut, torque
 from rover_pin.mechanism.frames import BodyFrame, FrameSpec, resolve_pair
-from rover_pin.mechanism.kinematics import Kinematics
+from rover_pin.mechanism.kinematics import Kinematics, column_of
 from rover_pin.numerics import Array
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -109,6 +110,10 @@ class JointSpring:
         result[self.column] = self.effort(at)
         return result
 
+    def bend(self, at: Kinematics, out: Array) -> None:
+        """Add the stiffness to `out` (nv, nv)."""
+        out[self.column, self.column] += self.stiffness
+
 
 @dataclass(frozen=True)
 class FrameSpring:
@@ -177,6 +182,24 @@ class FrameSpring:
     def slack_gradient(self, at: Kinematics) -> Array:
         """(nv,) minus the gradient of the length."""
         return -self.length_gradient(at)
+
+    def bend(self, at: Kinematics, out: Array) -> None:
+        """Add the second derivative of the energy to `out` (nv, nv)."""
+        self._bend(at, self.effort(at), self.stiffness, out)
+
+    def bend_slack(self, at: Kinematics, multiplier: float, out: Array) -> None:
+        """Take multiplier times the second derivative of `slack` off `out` (nv, nv)."""
+        self._bend(at, -multiplier, 0.0, out)
+
+    def _bend(self, at: Kinematics, force: float, stiffness: float, out: Array) -> None:
+        """Take the derivative of a push along the spring off `out`."""
+        frames = (self.first, self.second)
+        ends = np.array([column_of(frame.joint) for frame in frames])
+        points = np.array([frame.origin(at) for frame in frames])
+        tree = at.columns
+        bend_strut(
+            tree.parent, tree.turn, tree.move, tree.ref, ends, points, force, stiffness, tree.scratch, out
+        )  # fmt: skip
 
 
 Spring = JointSpring | FrameSpring

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field
 
 from rover_pin.errors import SidecarError, nearest
+from rover_pin.mechanism.bending import bend_cable
 from rover_pin.mechanism.cable import OFF, pulls, taut
 from rover_pin.mechanism.frames import find_frame
-from rover_pin.mechanism.kinematics import Kinematics
+from rover_pin.mechanism.kinematics import BASE, FIRST_JOINT, Kinematics, column_of
 from rover_pin.numerics import Array, frozen
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -24,12 +25,6 @@ PARALLEL = 1e-6
 """rad, or m: how far circles may lean out of the track's plane as the joints move."""
 
 POINTS_PER_TURN = 48
-
-BASE = 6
-"""Columns of the base, which moves all circles alike."""
-
-FIRST_JOINT = 2
-"""Pinocchio's id of the joint of the next column."""
 
 
 class Round(Protocol):
@@ -177,6 +172,16 @@ class Track:
         for circle, center, force in zip(self.circles, *self._pulled(at), strict=True):
             total += force @ at.point_jacobian(circle.joint, center)
         return total
+
+    def bend_slack(self, at: Kinematics, multiplier: float, out: Array) -> None:
+        """Take multiplier times the second derivative of `slack` off `out` (nv, nv)."""
+        wrap = self.wrap(at)
+        tree = at.columns
+        ends = np.array([column_of(circle.joint) for circle in self.circles])
+        bend_cable(
+            tree.parent, tree.turn, tree.move, tree.ref, ends, wrap.centers, wrap.plane, wrap.following,
+            wrap.spans, multiplier, tree.scratch, out,
+        )  # fmt: skip
 
     def _pulled(self, at: Kinematics) -> tuple[Array, Array]:
         """Centres (k, 3) and forces (k, 3) of a unit tension on them, world."""

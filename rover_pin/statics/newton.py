@@ -101,7 +101,7 @@ def land(
                 step, pushed = np.linalg.solve(rows, -gaps), np.zeros(held)
             else:
                 full, pulling = _spread(state, active, loops, forces)
-                stiffness = problem.stiffness(z, terrain, full, pulling, window)
+                stiffness = problem.stiffness(state, terrain, full, pulling, window)
                 step, forces = _elastic_step(problem, state, stiffness, rows, sides, gaps, forces)
                 pushed = np.asarray(stiffness @ step, dtype=np.float64)
             largest = float(np.max(np.abs(step) / problem.unit))

@@ -11,10 +11,15 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from rover_pin.contact.pack import pack
+from rover_pin.contact.place import RING
 from rover_pin.contact.rows import contact_rows
 from rover_pin.contact.search import find_all
 from rover_pin.mechanism import Elastic, Kinematics, OneSided, Reduction
+from rover_pin.mechanism.kinematics import column_of
 from rover_pin.numerics import Array
+from rover_pin.statics.bending import bend_loads
+from rover_pin.statics.differences import stiffness_by_differences
+from rover_pin.terrain.surface import CALLABLE, LINEAR
 
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
@@ -141,7 +146,7 @@ class Problem:
 
     def moved(self, x: float, y: float, yaw: float) -> Problem:
         """The same problem with the base held elsewhere; shares everything that does not depend on it."""
-        _ = self.unit, self.underside  # what is worked out once is shared
+        _ = self.unit, self.underside, self._lumps, self._carrier_columns  # what is worked out once is shared
         twin = object.__new__(Problem)
         twin.__dict__.update(self.__dict__)
         offset = self.reduction.offset.copy()
@@ -249,32 +254,85 @@ class Problem:
         jacobian = np.vstack([loop.jacobian(at) for loop in loops]) @ self.reduction.basis
         return residual, jacobian
 
-    def stiffness(self, z: Array, terrain: Terrain, multipliers: Array, pulls: Array, window: float) -> Array:
-        """(n, n) derivative of load - force' N - closing' multipliers by z, by central differences.
+    def stiffness(
+        self, state: State, terrain: Terrain, multipliers: Array, pulls: Array, window: float
+    ) -> Array:
+        """(n, n) derivative of load - force' N - closing' multipliers by z, in closed form.
 
-        N and the loops' multipliers are kept; contact points move with z along the terrain.
+        N and the loops' multipliers are kept; contact points move with z along the terrain. By central
+        differences where a loaded contact lies on a crease, or its shape has no ring.
 
         Args:
-            z: (n,).
+            state: the equations at z.
             terrain: what it stands on.
-            multipliers: (m,) N of the rows of `state(z, terrain, window)`.
+            multipliers: (m,) N of the state's rows.
             pulls: (k,) multipliers of the loops.
-            window: as for the state the multipliers belong to.
+            window: that the state was made with.
         """
-        reference = self.state(z, terrain, window)
-        size = len(reference.owners)
-        matrix = np.zeros((self.n, self.n))
-        for j in range(self.n):
-            step = 1e-6 * self.unit[j]
-            sides = []
-            for sign in (1.0, -1.0):
-                shifted = z.copy()
-                shifted[j] += sign * step
-                state = self.state(shifted, terrain, window)
-                force = _matched(reference, state, size)
-                sides.append(state.load - force.T @ multipliers - state.closing.T @ pulls)
-            matrix[:, j] = (sides[0] - sides[1]) / (2.0 * step)
+        loaded = np.flatnonzero(multipliers[: len(state.owners)])
+        if not self._is_smooth(state, terrain, loaded):
+            return stiffness_by_differences(self, state, terrain, multipliers, pulls, window)
+        at = self.locate(state.z)
+        out = np.zeros((self.model.nv, self.model.nv))
+        self._bend_loads(at, state, terrain, multipliers, loaded, out)
+        for elastic in self.elastics:
+            elastic.bend(at, out)
+        first = len(state.slack) - len(self.one_sided)
+        for element, multiplier in zip(self.one_sided, multipliers[first:].tolist(), strict=True):
+            if multiplier != 0.0:
+                element.bend_slack(at, multiplier, out)
+        row = 0
+        for loop in self.rover.loops:
+            loop.bend(at, pulls[row : row + loop.size], out)
+            row += loop.size
+        basis = self.reduction.basis
+        matrix: Array = basis.T @ out @ basis
         return matrix
+
+    def _is_smooth(self, state: State, terrain: Terrain, loaded: Integers) -> bool:
+        """Whether the ground has its own normal at the loaded contacts, and rings lie on it."""
+        owners = state.owners[loaded]
+        if terrain.kind == CALLABLE or np.any(self.shapes.forms[owners] != RING):
+            return False
+        if terrain.kind != LINEAR:
+            return True
+        x, y = state.contacts[loaded, 1], state.contacts[loaded, 2]
+        normals = np.column_stack([-terrain.gradient(x, y), np.ones(len(x))])
+        normals /= np.linalg.norm(normals, axis=1)[:, None]
+        return bool(np.max(np.abs(normals - state.contacts[loaded, 4:7]), initial=0.0) < 1e-9)
+
+    def _bend_loads(
+        self, at: Kinematics, state: State, terrain: Terrain, multipliers: Array, loaded: Integers, out: Array
+    ) -> None:
+        """Take the derivative of the generalised forces of weight and contacts off `out`."""
+        joints, columns, masses, levers = self._lumps
+        tree = at.columns
+        rotations, origins = at.frames(joints)
+        centers, axes = self.place_shapes(at)
+        owners = state.owners[loaded]
+        bend_loads(
+            tree.parent, tree.turn, tree.move, tree.ref, columns, rotations, origins, masses, levers,
+            self.gravity, out, terrain.kind, terrain.table, terrain.params, self._carrier_columns[owners],
+            centers[owners], axes[owners], self.shapes.rings[owners], state.contacts[loaded, 1:4],
+            multipliers[loaded],
+        )  # fmt: skip
+
+    @cached_property
+    def _lumps(self) -> tuple[tuple[int, ...], Integers, Array, Array]:
+        """Joints that carry a mass, their columns, masses (b,) kg and levers (b, 3) m."""
+        inertias = list(self.model.inertias)
+        joints = tuple(joint for joint, body in enumerate(inertias) if joint > 0 and body.mass > 0.0)
+        return (
+            joints,
+            np.array([column_of(joint) for joint in joints], dtype=np.int64),
+            np.array([inertias[joint].mass for joint in joints]),
+            np.array([inertias[joint].lever for joint in joints]).reshape(-1, 3),
+        )
+
+    @cached_property
+    def _carrier_columns(self) -> Integers:
+        """(s,) columns of the shapes' carriers."""
+        return np.array([column_of(int(joint)) for joint in self.shapes.joints], dtype=np.int64)
 
     def mass_matrix(self, at: Kinematics) -> Array:
         """(n, n) inertia on the free coordinates."""
@@ -292,15 +350,3 @@ class Problem:
 
 STANDARD = 9.81
 """Gravity of Pinocchio's models, m/s2; loads scale with what is asked for."""
-
-
-def _matched(reference: State, state: State, size: int) -> Array:
-    """Force rows of `state` in the order of `reference`: each contact by the nearest one of its shape."""
-    if np.array_equal(reference.owners, state.owners):
-        return state.force
-    rows = []
-    for owner, contact in zip(reference.owners, reference.contacts, strict=True):
-        same = np.flatnonzero(state.owners == owner)
-        away = np.linalg.norm(state.contacts[same, 1:4] - contact[1:4], axis=1)
-        rows.append(state.force[same[int(np.argmin(away))]])
-    return np.vstack([np.array(rows).reshape(size, -1), state.force[len(state.owners) :]])

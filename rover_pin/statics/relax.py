@@ -176,7 +176,7 @@ def _resistance(
     free = null_space(rows, rcond=1e-9) if len(rows) else np.eye(problem.n)
     if free.shape[1] == 0:
         return np.zeros((problem.n, problem.n))
-    stiffness = problem.stiffness(state.z, terrain, multipliers, pulls, window) * np.outer(unit, unit)
+    stiffness = problem.stiffness(state, terrain, multipliers, pulls, window) * np.outer(unit, unit)
     along = free.T @ (stiffness + stiffness.T) @ free / 2.0
     values, vectors = np.linalg.eigh(along)
     held: Array = free @ (vectors * np.clip(values, 0.0, None)) @ vectors.T @ free.T / np.outer(unit, unit)

@@ -70,7 +70,7 @@ def steadiness(problem: Problem, state: State, loads: Loads, terrain: Terrain, m
 
     Rows are taken across the supports' forces, so that their multipliers drop out to first order.
     """
-    matrix = problem.stiffness(state.z, terrain, loads.multipliers, loads.pulls, 1e-5)
+    matrix = problem.stiffness(state, terrain, loads.multipliers, loads.pulls, 1e-5)
     scaled = matrix * problem.unit[None, :] * problem.unit[:, None] / (problem.weight * problem.span)
     carrying = loads.touching[loads.multipliers[loads.touching] > 0.0]
     sides = np.vstack([state.force[carrying], state.closing]) * problem.unit
