@@ -38,6 +38,18 @@ def inlined(function: F) -> F:
     return cast("F", compiled)
 
 
+RANK = 1e-9
+"""Singular values below this share of the largest count as zero."""
+
+
+def null_space(rows: Array) -> Array:
+    """(n, d) orthonormal motions that rows (m, n) leave free; scipy's costs four times as much here."""
+    _, values, right = np.linalg.svd(rows, full_matrices=True)
+    rank = int(np.count_nonzero(values > RANK * max(float(values[0]), 1e-300))) if len(values) else 0
+    free: Array = right[rank:].T
+    return free
+
+
 _NEXT, _AFTER = np.array([1, 2, 0]), np.array([2, 0, 1])
 
 

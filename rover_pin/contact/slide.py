@@ -23,12 +23,17 @@ def slide(
         kind: of the surface.
         table: its table.
         params: its parameters.
-        cx, cy, cz: m, the centre.
-        ax, ay, az: the unit axis.
+        cx: x of the centre [m].
+        cy: y of the centre [m].
+        cz: z of the centre [m].
+        ax: x of the unit axis.
+        ay: y of the unit axis.
+        az: z of the unit axis.
         ring: m, radius of the ring.
-        x, y: m, the contact.
+        x: of the contact [m].
+        y: of the contact [m].
         out: (2, 6) receives d(x, y) / d(C, a) [-, m].
-    """  # fmt: skip
+    """
     h, hx, hy, hxx, hxy, hyy = surface(kind, table, params, x, y)
     nn = az - hx * ax - hy * ay
     dx, dy, dz = hx + nn * ax, hy + nn * ay, nn * az - 1.0

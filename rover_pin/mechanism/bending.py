@@ -1,10 +1,8 @@
 """How generalised forces change as a tree of joints moves: second derivatives, in closed form.
 
-A tree is given by columns, one a coordinate, each after the one it hangs on: `parent` (-1 of the first),
-`turn` its axis in the world (zero where it slides), `move` the velocity of its body's point at `ref`. A point
-p of a body whose last column is e moves by v_c(p) = move_c + turn_c x (p - ref) with every column c of its
-chain. Of two columns c and j, c the nearer to the root, the second derivative of p is turn_c x v_j(p); a
-direction d fixed to the body has turn_c x (turn_j x d).
+Trees are given by columns as in `rover_pin.mechanism.columns`. Of two columns c and j, c the nearer to the
+root, the second derivative of a point p is turn_c x v_j(p); a direction d fixed to the body has
+turn_c x (turn_j x d).
 
 Elements between bodies do not feel columns that move all their bodies alike: those are left out.
 """
@@ -13,35 +11,9 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
 from rover_pin.mechanism.cable import OFF
-from rover_pin.numerics import Array, formula, inlined
-
-Integers = NDArray[np.int64]
-
-
-@inlined
-def speed(
-    turn: Array, move: Array, ref: Array, c: int, x: float, y: float, z: float
-) -> tuple[float, float, float]:
-    """v_c at the world point (x, y, z)."""
-    rx, ry, rz = x - ref[0], y - ref[1], z - ref[2]
-    wx, wy, wz = turn[c, 0], turn[c, 1], turn[c, 2]
-    return (
-        move[c, 0] + wy * rz - wz * ry,
-        move[c, 1] + wz * rx - wx * rz,
-        move[c, 2] + wx * ry - wy * rx,
-    )
-
-
-@inlined
-def is_above(parent: Integers, c: int, e: int) -> bool:
-    """Whether column c is e or one that e hangs on; columns come after those they hang on."""
-    while e > c:
-        e = parent[e]
-    return e == c
+from rover_pin.mechanism.columns import Integers, is_above, speed
+from rover_pin.numerics import Array, formula
 
 
 @formula
@@ -54,11 +26,15 @@ def add_dead_force(
     Args:
         ref: (3,) m.
         e: column.
-        x, y, z: m, the point.
-        fx, fy, fz: N.
+        x: of the point [m].
+        y: of the point [m].
+        z: of the point [m].
+        fx: N.
+        fy: N.
+        fz: N.
         pull: (m, 3) forces on the columns' bodies.
         spread: (m, 3, 3) their first moments.
-    """  # fmt: skip
+    """
     rx, ry, rz = x - ref[0], y - ref[1], z - ref[2]
     pull[e, 0] += fx
     pull[e, 1] += fy
@@ -166,10 +142,14 @@ def bend_fixed_pull(
         ref: (3,) m.
         e: column.
         other: column of the body that pulls.
-        x, y, z: m, the point.
-        fx, fy, fz: N.
+        x: of the point [m].
+        y: of the point [m].
+        z: of the point [m].
+        fx: N.
+        fy: N.
+        fz: N.
         out: (m, m), reduced by the derivative.
-    """  # fmt: skip
+    """
     j = e
     while j >= 0 and not is_above(parent, j, other):
         vx, vy, vz = speed(turn, move, ref, j, x, y, z)

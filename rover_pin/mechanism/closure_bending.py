@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from rover_pin.mechanism.bending import Integers, bend_fixed_pull, bend_strut, is_above, speed
+from rover_pin.mechanism.bending import bend_fixed_pull, bend_strut
 from rover_pin.mechanism.closure import DISTANCE, HINGE, LEVEL, PLANAR, WELD
+from rover_pin.mechanism.columns import Integers, is_above, speed
 from rover_pin.numerics import Array, formula, inlined
 
 Three = tuple[float, float, float]
@@ -55,7 +56,7 @@ def bend_loop(
     Args:
         kind: BALL, HINGE, PLANAR, WELD, DISTANCE or LEVEL.
         across: (3, 3) as of `close`.
-        parent: (m,) columns as of `rover_pin.mechanism.bending`.
+        parent: (m,) columns as of `rover_pin.mechanism.columns`.
         turn: (m, 3).
         move: (m, 3).
         ref: (3,) m.
@@ -180,5 +181,3 @@ def _bend_weld(parent: Integers, turn: Array, ends: Integers, pull: Three, out: 
                     _take(out, j, k, -0.5 * _dot(pull, _cross(_turn(turn, j), _turn(turn, k))))
                     k = parent[k]
             j = parent[j]
-
-

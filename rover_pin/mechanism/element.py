@@ -29,6 +29,10 @@ class Bilateral(Protocol):
     def jacobian(self, at: Kinematics) -> Array:
         """dc/dq, (m, nv)."""
 
+
+class Closing(Bilateral, Protocol):
+    """Rows that bend: their derivative changes with q."""
+
     def bend(self, at: Kinematics, multipliers: Array, out: Array) -> None:
         """Take the sum of multipliers (m,) times second derivatives of c off `out` (nv, nv)."""
 

@@ -11,7 +11,8 @@ import pinocchio as pin
 from pydantic import BaseModel, ConfigDict, field_validator
 
 from rover_pin.errors import SidecarError, nearest
-from rover_pin.mechanism.kinematics import Kinematics
+from rover_pin.mechanism.columns import frame_rows
+from rover_pin.mechanism.kinematics import Kinematics, column_of
 from rover_pin.numerics import Array, frozen
 
 
@@ -72,9 +73,11 @@ class BodyFrame:
 
     def jacobian(self, at: Kinematics) -> Array:
         """(6, nv) velocity of the origin, then angular velocity, world axes."""
-        return np.concatenate(
-            [at.point_jacobian(self.joint, self.origin(at)), at.angular_jacobian(self.joint)]
-        )
+        tree, out = at.columns, np.empty((6, at.model.nv))
+        frame_rows(
+            tree.parent, tree.turn, tree.move, tree.ref, column_of(self.joint), self.origin(at), out
+        )  # fmt: skip
+        return out
 
 
 def resolve_pair(

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from rover_pin.numerics import Array, cross
+from rover_pin.mechanism.columns import to_columns
+from rover_pin.numerics import Array
 
 BASE = 6
 """Columns of the base: x, y, z, yaw, pitch, roll."""
@@ -18,8 +20,11 @@ FIRST_JOINT = 2
 """Pinocchio's id of the first moving joint: 0 is the universe, 1 the base."""
 
 
+T = TypeVar("T")
+
+
 class Columns(NamedTuple):
-    """The tree as columns, one a coordinate; see `rover_pin.mechanism.bending`.
+    """The tree as columns, one a coordinate; see `rover_pin.mechanism.columns`.
 
     Attributes:
         parent: (nv,) the column that a column hangs on, -1 of the first.
@@ -59,18 +64,25 @@ class Kinematics:
         self.q = q
         pin.computeJointJacobians(model, data, q)
         self._jacobians: dict[int, Array] = {}
-        self._frames: dict[tuple[int, ...], tuple[Array, Array]] = {}
+        self._kept: dict[int, tuple[object, Any]] = {}
+
+    def once(self, element: object, work_out: Callable[[], T]) -> T:
+        """What an element works out at this configuration: once, however often it is asked."""
+        kept = self._kept.get(id(element))
+        if kept is None:
+            kept = self._kept[id(element)] = element, work_out()  # kept too, so that its id stays its own
+        found: T = kept[1]
+        return found
 
     @cached_property
     def columns(self) -> Columns:
         """The tree as columns."""
-        parents = list(self.model.parents)[FIRST_JOINT:]
-        chain = [*range(-1, BASE - 1), *(column_of(int(parent)) for parent in parents)]
-        jacobian = self.data.J
-        ref = np.array(self.q[:3])
-        turn = np.ascontiguousarray(jacobian[3:].T)
-        move = jacobian[:3].T + cross(turn, np.broadcast_to(ref, turn.shape))
-        return Columns(np.array(chain, dtype=np.int64), turn, np.ascontiguousarray(move), ref, np.empty_like(turn))
+        chain = [joint + BASE - FIRST_JOINT for joint in self.model.parents]  # as `column_of`
+        chain[:FIRST_JOINT] = range(-1, BASE - 1)
+        nv = self.model.nv
+        turn, move, ref = np.empty((nv, 3)), np.empty((nv, 3)), np.array(self.q[:3])
+        to_columns(self.data.J, ref, turn, move)
+        return Columns(np.array(chain), turn, move, ref, np.empty((nv, 3)))
 
     def rotation(self, joint: int) -> Array:
         """(3, 3) rotation of the joint's frame in the world."""
@@ -84,14 +96,17 @@ class Kinematics:
 
     def frames(self, joints: tuple[int, ...]) -> tuple[Array, Array]:
         """Rotations (k, 3, 3) and origins (k, 3) m of several joints, world."""
-        found = self._frames.get(joints)
-        if found is None:
-            found = np.empty((len(joints), 3, 3)), np.empty((len(joints), 3))
-            for i, joint in enumerate(joints):
-                placement = self.data.oMi[joint]
-                found[0][i] = placement.rotation
-                found[1][i] = placement.translation
-            self._frames[joints] = found
+        rotations, origins = self.placements
+        chosen = list(joints)
+        return rotations[chosen], origins[chosen]
+
+    @cached_property
+    def placements(self) -> tuple[Array, Array]:
+        """Rotations (joints, 3, 3) and origins (joints, 3) m of all joints' frames, world."""
+        found = np.empty((self.model.njoints, 3, 3)), np.empty((self.model.njoints, 3))
+        for rotation, origin, placement in zip(*found, self.data.oMi, strict=True):
+            rotation[:] = placement.rotation
+            origin[:] = placement.translation
         return found
 
     def point(self, joint: int, local: Array) -> Array:

@@ -148,21 +148,15 @@ class Loop:
 
     def _rows(self, at: Kinematics) -> tuple[Array, Array]:
         """Residual and Jacobian."""
+        return at.once(self, lambda: self._close(at))
+
+    def _close(self, at: Kinematics) -> tuple[Array, Array]:
         residual, jacobian = np.empty(self.size), np.empty((self.size, at.model.nv))
-        first, second = self.first, self.second
-        close(
-            KINDS.index(self.type),
-            self.across,
-            self.length,
-            first.origin(at),
-            first.axes(at),
-            first.jacobian(at),
-            second.origin(at),
-            second.axes(at),
-            second.jacobian(at),
-            residual,
-            jacobian,
-        )
+        first = self.first.origin(at), self.first.axes(at), self.first.jacobian(at)
+        second = first
+        if self.second is not self.first:
+            second = self.second.origin(at), self.second.axes(at), self.second.jacobian(at)
+        close(KINDS.index(self.type), self.across, self.length, *first, *second, residual, jacobian)
         return residual, jacobian
 
 

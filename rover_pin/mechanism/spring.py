@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Annotated, Any
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field
 
 from rover_pin.errors import MechanismError, SidecarError, nearest
 from rover_pin.mechanism.bending import bend_strut
-from rover_pin.mechanism.closure import push, strut, torque
+from rover_pin.mechanism.closure import push, torque
+from rover_pin.mechanism.columns import stretch
 from rover_pin.mechanism.frames import BodyFrame, FrameSpec, resolve_pair
 from rover_pin.mechanism.kinematics import Kinematics, column_of
 from rover_pin.numerics import Array
@@ -150,9 +153,12 @@ class FrameSpring:
 
     def _span(self, at: Kinematics) -> tuple[float, Array]:
         """Length and its gradient."""
+        return at.once(self, lambda: self._measure(at))
+
+    def _measure(self, at: Kinematics) -> tuple[float, Array]:
         gradient = np.empty(at.model.nv)
-        first, second = self.first, self.second
-        length = strut(first.origin(at), first.jacobian(at), second.origin(at), second.jacobian(at), gradient)
+        tree = at.columns
+        length = stretch(tree.parent, tree.turn, tree.move, tree.ref, self._ends, self._points(at), gradient)
         if length < 1e-9:
             raise MechanismError(
                 "the spring's ends coincide, so it pushes in no direction",
@@ -193,13 +199,19 @@ class FrameSpring:
 
     def _bend(self, at: Kinematics, force: float, stiffness: float, out: Array) -> None:
         """Take the derivative of a push along the spring off `out`."""
-        frames = (self.first, self.second)
-        ends = np.array([column_of(frame.joint) for frame in frames])
-        points = np.array([frame.origin(at) for frame in frames])
-        tree = at.columns
+        tree, points = at.columns, self._points(at)
         bend_strut(
-            tree.parent, tree.turn, tree.move, tree.ref, ends, points, force, stiffness, tree.scratch, out
+            tree.parent, tree.turn, tree.move, tree.ref, self._ends, points, force, stiffness, tree.scratch,
+            out,
         )  # fmt: skip
+
+    @cached_property
+    def _ends(self) -> NDArray[np.int64]:
+        return np.array([column_of(self.first.joint), column_of(self.second.joint)])
+
+    def _points(self, at: Kinematics) -> Array:
+        """(2, 3) m, the ends, world."""
+        return np.array([self.first.origin(at), self.second.origin(at)])
 
 
 Spring = JointSpring | FrameSpring

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Annotated, Literal, Protocol
 
 import numpy as np
@@ -13,6 +14,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from rover_pin.errors import SidecarError, nearest
 from rover_pin.mechanism.bending import bend_cable
 from rover_pin.mechanism.cable import OFF, pulls, taut
+from rover_pin.mechanism.columns import add_pulls
 from rover_pin.mechanism.frames import find_frame
 from rover_pin.mechanism.kinematics import BASE, FIRST_JOINT, Kinematics, column_of
 from rover_pin.numerics import Array, frozen
@@ -152,12 +154,32 @@ class Track:
     axes: Array
     length: float
 
+    @cached_property
+    def _carriers(self) -> NDArray[np.int64]:
+        return np.array([circle.joint for circle in self.circles])
+
+    @cached_property
+    def _ends(self) -> NDArray[np.int64]:
+        return np.array([column_of(circle.joint) for circle in self.circles])
+
+    @cached_property
+    def _places(self) -> Array:
+        return np.array([circle.center for circle in self.circles])
+
+    @cached_property
+    def _rho(self) -> Array:
+        return np.array([circle.rho for circle in self.circles])
+
     def wrap(self, at: Kinematics) -> Wrap:
         """The taut way around the circles."""
+        return at.once(self, lambda: self._wrap(at))
+
+    def _wrap(self, at: Kinematics) -> Wrap:
         count = len(self.circles)
-        centers = np.array([at.point(circle.joint, circle.center) for circle in self.circles])
+        rotations, origins = (found[self._carriers] for found in at.placements)
+        centers = np.einsum("kij,kj->ki", rotations, self._places) + origins
         plane = at.rotation(self.joint) @ self.axes
-        rho = np.array([circle.rho for circle in self.circles])
+        rho = self._rho
         following, spans, turns = np.empty(count, dtype=np.int64), np.zeros((count, 3)), np.zeros(count)
         length = taut(centers @ plane[:, :2], rho, following, spans, turns)
         return Wrap(length, centers, plane, rho, following, spans, turns)
@@ -168,27 +190,24 @@ class Track:
 
     def slack_gradient(self, at: Kinematics) -> Array:
         """(nv,) its derivative: also the generalised force of a unit tension."""
+        wrap, tree = self.wrap(at), at.columns
         total = np.zeros(at.model.nv)
-        for circle, center, force in zip(self.circles, *self._pulled(at), strict=True):
-            total += force @ at.point_jacobian(circle.joint, center)
+        forces = np.zeros((len(self.circles), 2))
+        pulls(wrap.following, wrap.spans, forces)
+        add_pulls(
+            tree.parent, tree.turn, tree.move, tree.ref, self._ends, wrap.centers,
+            forces @ wrap.plane[:, :2].T, total,
+        )  # fmt: skip
         return total
 
     def bend_slack(self, at: Kinematics, multiplier: float, out: Array) -> None:
         """Take multiplier times the second derivative of `slack` off `out` (nv, nv)."""
         wrap = self.wrap(at)
         tree = at.columns
-        ends = np.array([column_of(circle.joint) for circle in self.circles])
         bend_cable(
-            tree.parent, tree.turn, tree.move, tree.ref, ends, wrap.centers, wrap.plane, wrap.following,
+            tree.parent, tree.turn, tree.move, tree.ref, self._ends, wrap.centers, wrap.plane, wrap.following,
             wrap.spans, multiplier, tree.scratch, out,
         )  # fmt: skip
-
-    def _pulled(self, at: Kinematics) -> tuple[Array, Array]:
-        """Centres (k, 3) and forces (k, 3) of a unit tension on them, world."""
-        wrap = self.wrap(at)
-        forces = np.zeros((len(self.circles), 2))
-        pulls(wrap.following, wrap.spans, forces)
-        return wrap.centers, forces @ wrap.plane[:, :2].T
 
     def path(self, at: Kinematics) -> Array:
         """(p, 3) m, world: the taut way around as a closed polygon, for drawing."""

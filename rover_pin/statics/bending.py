@@ -21,7 +21,10 @@ def bend_loads(
     """Take the derivative of the generalised forces of weight and loads off `out` (m, m).
 
     Args:
-        parent, turn, move, ref: the tree, see `rover_pin.mechanism.bending`.
+        parent: (m,) the tree, see `rover_pin.mechanism.columns`.
+        turn: (m, 3) likewise.
+        move: (m, 3) likewise.
+        ref: (3,) likewise.
         body_columns: (b,) columns of bodies with a mass.
         rotations: (b, 3, 3) of their joints' frames, world.
         origins: (b, 3) m, world.
@@ -29,7 +32,9 @@ def bend_loads(
         levers: (b, 3) m, centres of mass in the joints' frames.
         gravity: m/s2.
         out: (m, m).
-        kind, table, params: of the ground's surface, smooth at the contacts.
+        kind: of the ground's surface, smooth at the contacts.
+        table: its table.
+        params: its parameters.
         carriers: (c,) columns of the contacts' bodies.
         centers: (c, 3) m, the shapes' centres, world.
         axes: (c, 3) their axes.

@@ -87,9 +87,11 @@ def land(
     pushed: Array
     forces: Array = np.zeros(held)
     if not determinate:
-        forces = _first_guess(problem.state(z, terrain, window), active, loops, problem)
-    for _ in range(iterations):
         state = problem.state(z, terrain, window)
+        forces = _first_guess(state, active, loops, problem)
+    for i in range(iterations):
+        if determinate or i > 0:
+            state = problem.state(z, terrain, window)
         if size >= 0 and len(state.slack) != size:
             return None
         size = len(state.slack)

@@ -96,14 +96,12 @@ class Problem:
         self.gravity = gravity
         self.model: Any = rover.model
         self.data: Any = rover.model.createData()
+        self._latest: Kinematics | None = None
         self.n = reduction.basis.shape[1]
         self.weight = rover.mass * gravity
         self.span = max(rover.wheel_span, 1e-3)
         self.shapes = pack(rover.shapes)
         self.reach = float(np.max(self.shapes.rings + self.shapes.treads, initial=0.0))
-        self.carriers, index = np.unique(self.shapes.joints, return_inverse=True)
-        self._carrier_of: Integers = index.astype(np.int64).reshape(-1)
-        self._carrier_list = tuple(int(joint) for joint in self.carriers)
         self._found = np.empty((len(rover.shapes), CONTACTS_PER_SHAPE, 7))
         self._counts = np.zeros(len(rover.shapes), dtype=np.int64)
         self.elastics: list[Elastic] = list(rover.springs)
@@ -156,13 +154,16 @@ class Problem:
 
     def locate(self, z: Array) -> Kinematics:
         """Kinematics at z."""
-        return Kinematics(self.model, self.data, self.reduction.expand(z))
+        self._latest = Kinematics(self.model, self.data, self.reduction.expand(z))
+        return self._latest
 
     def place_shapes(self, at: Kinematics) -> tuple[Array, Array]:
         """Centres (s, 3) m and axes (s, 3) of all shapes, world."""
-        rotations, origins = at.frames(self._carrier_list)
-        rotations = rotations[self._carrier_of]
-        centers = np.einsum("sij,sj->si", rotations, self.shapes.centers) + origins[self._carrier_of]
+        return at.once(self.shapes, lambda: self._place_shapes(at))
+
+    def _place_shapes(self, at: Kinematics) -> tuple[Array, Array]:
+        rotations, origins = (found[self.shapes.joints] for found in at.placements)
+        centers = np.einsum("sij,sj->si", rotations, self.shapes.centers) + origins
         return centers, np.einsum("sij,sj->si", rotations, self.shapes.axes)
 
     @cached_property
@@ -205,22 +206,15 @@ class Problem:
         at = at or self.locate(z)
         basis = self.reduction.basis
         owners, contacts = self.search(at, terrain, window)
-        jacobians = np.array([at.joint_jacobian(joint) for joint in self._carrier_list])
-        _, origins = at.frames(self._carrier_list)
         owned = len(contacts)
         size = owned + len(self._stop_columns) + len(self.one_sided)
         slack, motion, force = np.empty(size), np.empty((size, self.n)), np.empty((size, self.n))
         slack[:owned] = contacts[:, 0]
+        tree = at.columns
         contact_rows(
-            jacobians,
-            origins,
-            self._carrier_of[owners],
-            contacts[:, 1:4],
-            contacts[:, 4:7],
-            basis,
-            motion,
-            force,
-        )
+            tree.parent, tree.turn, tree.move, tree.ref, self._carrier_columns[owners], contacts[:, 1:4],
+            contacts[:, 4:7], basis, motion, force,
+        )  # fmt: skip
         self._other_rows(at, slack[owned:], motion[owned:])
         force[owned:] = motion[owned:]
         closure, closing = self.loops(at)
@@ -272,7 +266,7 @@ class Problem:
         loaded = np.flatnonzero(multipliers[: len(state.owners)])
         if not self._is_smooth(state, terrain, loaded):
             return stiffness_by_differences(self, state, terrain, multipliers, pulls, window)
-        at = self.locate(state.z)
+        at = state.at if state.at is self._latest else self.locate(state.z)
         out = np.zeros((self.model.nv, self.model.nv))
         self._bend_loads(at, state, terrain, multipliers, loaded, out)
         for elastic in self.elastics:
@@ -307,7 +301,7 @@ class Problem:
         """Take the derivative of the generalised forces of weight and contacts off `out`."""
         joints, columns, masses, levers = self._lumps
         tree = at.columns
-        rotations, origins = at.frames(joints)
+        rotations, origins = (found[joints] for found in at.placements)
         centers, axes = self.place_shapes(at)
         owners = state.owners[loaded]
         bend_loads(
@@ -318,12 +312,12 @@ class Problem:
         )  # fmt: skip
 
     @cached_property
-    def _lumps(self) -> tuple[tuple[int, ...], Integers, Array, Array]:
+    def _lumps(self) -> tuple[Integers, Integers, Array, Array]:
         """Joints that carry a mass, their columns, masses (b,) kg and levers (b, 3) m."""
         inertias = list(self.model.inertias)
-        joints = tuple(joint for joint, body in enumerate(inertias) if joint > 0 and body.mass > 0.0)
+        joints = [joint for joint, body in enumerate(inertias) if joint > 0 and body.mass > 0.0]
         return (
-            joints,
+            np.array(joints, dtype=np.int64),
             np.array([column_of(joint) for joint in joints], dtype=np.int64),
             np.array([inertias[joint].mass for joint in joints]),
             np.array([inertias[joint].lever for joint in joints]).reshape(-1, 3),

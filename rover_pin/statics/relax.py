@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.linalg import null_space
 
-from rover_pin.numerics import Array
+from rover_pin.numerics import Array, null_space
 from rover_pin.statics.lcp import lemke
 from rover_pin.statics.newton import independent_rows
 from rover_pin.statics.problem import Problem, State
@@ -173,7 +172,7 @@ def _resistance(
     """
     unit = problem.unit
     rows = np.vstack([state.motion[multipliers > 0.0], state.closing]) * unit
-    free = null_space(rows, rcond=1e-9) if len(rows) else np.eye(problem.n)
+    free = null_space(rows) if len(rows) else np.eye(problem.n)
     if free.shape[1] == 0:
         return np.zeros((problem.n, problem.n))
     stiffness = problem.stiffness(state, terrain, multipliers, pulls, window) * np.outer(unit, unit)

@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.linalg import null_space
 
 from rover_pin.contact.pack import half_extents
 from rover_pin.mechanism import Kinematics
-from rover_pin.numerics import Array
+from rover_pin.numerics import Array, null_space
 from rover_pin.statics.loads import Loads
 from rover_pin.statics.problem import Problem, State
 
@@ -61,8 +60,7 @@ def free_motions(state: State, loads: Loads, problem: Problem) -> Array:
     rows = np.vstack([state.motion[carrying], state.closing]) * problem.unit
     if not len(rows):
         return np.eye(problem.n)
-    basis: Array = null_space(rows, rcond=1e-9)
-    return basis
+    return null_space(rows)
 
 
 def steadiness(problem: Problem, state: State, loads: Loads, terrain: Terrain, motions: Array) -> Array:
@@ -76,7 +74,7 @@ def steadiness(problem: Problem, state: State, loads: Loads, terrain: Terrain, m
     sides = np.vstack([state.force[carrying], state.closing]) * problem.unit
     across: Array = motions
     if len(sides):
-        across = np.array(null_space(sides, rcond=1e-9), dtype=np.float64)
+        across = null_space(sides)
     if across.shape[1] != motions.shape[1]:
         across = motions
     solved = np.linalg.lstsq(across.T @ motions, across.T @ scaled @ motions, rcond=None)[0]
