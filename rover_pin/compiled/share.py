@@ -56,7 +56,7 @@ def share(p: Posed, w: Work, z: Array, cy: float, sy: float) -> int:
     if held > n:
         if loops > 0 or w.touching[count - 1] >= shapes or not least_squares(p, w, held, n):
             return -1
-    elif count != p.n_active:
+    elif count != w.n_active:
         return -1
     elif held == n:
         for c in range(n):
