@@ -13,7 +13,7 @@ from rover_pin.compiled.state import follow_contact, gap_row, loop_rows, stop_ro
 from rover_pin.compiled.walk import walk
 from rover_pin.compiled.work import Work
 from rover_pin.numerics import Array, formula, inlined
-from rover_pin.statics.ground import JUMP
+from rover_pin.statics.adapt import JUMP
 
 ITERATIONS = 12
 STEP = 1e-7

@@ -19,9 +19,8 @@ from rover_pin.compiled.underside import CLEAR, IN_GROUND, look_below
 from rover_pin.compiled.walk import place, turn, walk
 from rover_pin.compiled.work import Work
 from rover_pin.numerics import Array, formula, inlined
-from rover_pin.statics.follow import MOST_CHANGES
-from rover_pin.statics.follow import OPEN as PENETRATION
-from rover_pin.statics.ground import NOT_NEGATIVE
+from rover_pin.statics.adapt import MOST_CHANGES, NOT_NEGATIVE
+from rover_pin.statics.adapt import OPEN as PENETRATION
 from rover_pin.statics.loads import TOUCHING
 from rover_pin.statics.relax import UPRIGHT as MOST_TILT
 from rover_pin.statics.report import ACCEPTED as LARGEST
@@ -132,7 +131,7 @@ def change_supports(
     p: Posed, ground: Ground, params: Array, table: Array, tiles: Tiles, w: Work, z: Array, cy: float,
     sy: float,
 ) -> int:  # fmt: skip
-    """Drop supports that would pull, take up rows that are violated, as `rover_pin.statics.follow.adapted`.
+    """Drop supports that would pull, take up rows that are violated, as `rover_pin.statics.adapt.adapted`.
 
     Returns:
         SAME, CHANGED, or IMPOSSIBLE where the rows that carry are too many.

@@ -9,8 +9,8 @@ from rover_pin.compiled.posed import Posed
 from rover_pin.compiled.state import force_row, gravity_load, loop_rows, stop_rows, torsion_loads
 from rover_pin.compiled.work import Work
 from rover_pin.numerics import Array, formula
-from rover_pin.statics.follow import OPEN as PENETRATION
-from rover_pin.statics.ground import NOT_NEGATIVE
+from rover_pin.statics.adapt import NOT_NEGATIVE
+from rover_pin.statics.adapt import OPEN as PENETRATION
 from rover_pin.statics.loads import STOPPED, TOUCHING
 
 

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rover_pin.numerics import Array
+from rover_pin.statics.adapt import JUMP, NOT_NEGATIVE, adapted, stands
 from rover_pin.statics.ground import (
-    JUMP,
-    NOT_NEGATIVE,
     Footing,
     failed,
     let_go,
@@ -27,9 +26,6 @@ from rover_pin.statics.verdict import free_motions, steadiness, undetermined_joi
 if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
 
-OPEN = -2e-7
-"""m or rad: a gap below this is a penetration, to be resolved by another set of supports."""
-
 FALL = 0.05
 """Share of the span, and rad: a rover that lost a support and moved this far without a rest falls."""
 
@@ -38,9 +34,6 @@ WINDOW = 0.02
 
 NEAR = 2e-3
 """m or rad: supports this near may take over within a least step."""
-
-MOST_CHANGES = 6
-"""Sets of supports tried at the place itself before the stance is followed."""
 
 FIRST_STEP = 0.25
 LEAST_STEP = 1.0 / 256.0
@@ -57,47 +50,10 @@ def straight(problem: Problem, footing: Footing, z: Array, terrain: Terrain) -> 
         return replace(footing, z=landing.z)
     if landing is None or landing.sign != footing.sign or not problem.elastics:
         return None
-    return adapted(problem, footing, z, terrain, landing)
-
-
-def adapted(
-    problem: Problem, footing: Footing, z: Array, terrain: Terrain, landing: Landing
-) -> Footing | None:
-    """The stance of a sprung rover on the supports that carry at the place, found by changing all at once.
-
-    Supports that would pull are dropped, rows that are violated taken up, and Newton lands again: the
-    primal-dual active set method (Hintermueller, Ito and Kunisch 2002). Springs hold the rover while supports
-    change, so that it stays on its branch; `report` sees to it that the stance is a steady one.
-
-    Args:
-        problem: the rover.
-        footing: the stance on level ground.
-        z: (n,) its coordinates at the ground's height.
-        terrain: what it stands on.
-        landing: on the supports of level ground, which do not all carry.
-    """
-    active = footing.active
-    for _ in range(MOST_CHANGES):
-        carrying = landing.multipliers >= NOT_NEGATIVE * problem.weight
-        kept = np.array([row for row in active if carrying[row]], dtype=np.int64)
-        violated = np.flatnonzero(landing.state.slack < OPEN)
-        active = np.union1d(kept, violated).astype(np.int64)
-        again = land(problem, landing.z, terrain, active, footing.loops, reach=JUMP * 2.0, iterations=9)
-        if again is None or np.max(np.abs(again.z - z) / problem.unit) > JUMP * 2.0:
-            return None
-        landing = again
-        if stands(problem, landing, landing.sign):
-            return replace(footing, z=landing.z, active=active, sign=landing.sign)
-    return None
-
-
-def stands(problem: Problem, landing: Landing, sign: float) -> bool:
-    """Whether a landing is on the branch: no negative load, no penetration, orientation kept."""
-    return bool(
-        landing.sign == sign
-        and np.min(landing.multipliers, initial=0.0) >= NOT_NEGATIVE * problem.weight
-        and np.min(landing.state.slack, initial=0.0) >= OPEN
-    )
+    found = adapted(problem, z, terrain, footing.active, footing.loops, landing)
+    if found is None:
+        return None
+    return replace(footing, z=found.landing.z, active=found.active, sign=found.landing.sign)
 
 
 def follow(

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from rover_pin.mechanism import Kinematics
 from rover_pin.numerics import Array, cross, frozen
 from rover_pin.statics import residuals
-from rover_pin.statics.ground import JUMP, PUSH, Footing, failed, let_go, off_map
+from rover_pin.statics.adapt import JUMP
+from rover_pin.statics.ground import PUSH, Footing, failed, let_go, off_map
 from rover_pin.statics.loads import Loads, share_loads
 from rover_pin.statics.problem import Problem, State
 from rover_pin.statics.relax import UPRIGHT
