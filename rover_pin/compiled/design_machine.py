@@ -17,7 +17,7 @@ from rover_pin.compiled.design_scan import Scanned, finite_nodes, scan
 from rover_pin.compiled.design_sidecar import check_sizes, is_followed, sizes, springs, tracks
 from rover_pin.compiled.design_tree import Walked, walk_tree
 from rover_pin.compiled.machine import Machine
-from rover_pin.description.formulas import Formula, Path
+from rover_pin.description.formulas import Formula, Number, Path
 from rover_pin.description.notes import Notes
 from rover_pin.description.prepare import prepare
 from rover_pin.description.reading import dotted
@@ -80,7 +80,7 @@ class Blueprint:
         }
         with np.errstate(all="ignore"):
             nodes = evaluate(self.trace, usable, self._wanted(), finite_nodes(self.scanned))
-            known = {**self.rover.parameters, **usable}
+            known: dict[str, Number] = {**self.rover.parameters, **usable}
             stated = {path: np.asarray(formula.value(known)) for path, formula in self.formulas.items()}
             sheet = Sheet(nodes, stated)
             for stated_numbers in stated.values():

@@ -96,9 +96,15 @@ def settle_one(
         else:
             landed, sign = land(p, ground, params, table, w, z, x, y, cy, sy)
         walk(p, z, x, y, cy, sy, w.rot, w.org)
+        sprung = p.n_torsions + p.n_struts > 0 and ground.kind != LINEAR
         if not landed or (changes == 0 and sign != p.sign):
-            return OPEN, -1, 0.0, 0
-        if p.n_torsions + p.n_struts > 0 and ground.kind != LINEAR and changes < MOST_CHANGES:
+            if changes > 0 or not sprung:
+                return OPEN, -1, 0.0, 0
+            begin(p, w, z, x, y, cy, sy, tabled(ground.kind, table, params, x, y)[0])
+            drop_internal(p, w)
+            changes += 1
+            continue
+        if sprung and changes < MOST_CHANGES:
             change = change_supports(p, ground, params, table, tiles, w, z, cy, sy)
             if change == IMPOSSIBLE:
                 return OPEN, -1, 0.0, 0
@@ -169,6 +175,13 @@ def change_supports(
     for k in range(count):
         w.active[k] = w.chosen_rows[k]
     return CHANGED
+
+
+@inlined
+def drop_internal(p: Posed, w: Work) -> None:
+    """Leave only contacts among the supports taken as carrying."""
+    while w.n_active > 0 and w.active[w.n_active - 1] >= p.n_shapes:
+        w.n_active -= 1
 
 
 @inlined

@@ -48,9 +48,15 @@ def straight(problem: Problem, footing: Footing, z: Array, terrain: Terrain) -> 
     landing = land(problem, z, terrain, footing.active, footing.loops, reach=JUMP * 2.0, iterations=9)
     if landing is not None and stands(problem, landing, footing.sign):
         return replace(footing, z=landing.z)
-    if landing is None or landing.sign != footing.sign or not problem.elastics:
+    if not problem.elastics:
         return None
-    found = adapted(problem, z, terrain, footing.active, footing.loops, landing)
+    active = footing.active
+    if landing is None or landing.sign != footing.sign:  # without what binds between bodies
+        active = active[active < len(problem.rover.shapes)]
+        landing = land(problem, z, terrain, active, footing.loops, reach=JUMP * 2.0, iterations=9)
+    if landing is None:
+        return None
+    found = adapted(problem, z, terrain, active, footing.loops, landing)
     if found is None:
         return None
     return replace(footing, z=found.landing.z, active=found.active, sign=found.landing.sign)

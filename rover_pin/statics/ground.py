@@ -138,8 +138,13 @@ def _come_to_rest(
 def _caught(problem: Problem, rest: Rest, terrain: Terrain) -> Footing | None:
     """Newton from a sprung rover's fall that need not have ended, on the supports that turn out to carry."""
     loops = independent_rows(rest.state.closing)
-    active = carrying(problem, rest)
-    landing = land(problem, rest.state.z, terrain, active, loops, window=THOROUGH, reach=0.05)
+    contacts, shapes = len(rest.state.owners), len(problem.rover.shapes)
+    rows = np.flatnonzero(rest.multipliers > 0.0)
+    plain = np.where(
+        rows < contacts, rest.state.owners[np.minimum(rows, contacts - 1)], rows - contacts + shapes
+    )
+    active = np.unique(plain).astype(np.int64)
+    landing = land(problem, rest.state.z, terrain, active, loops, window=THOROUGH, reach=0.2)
     if landing is not None and not stands(problem, landing, landing.sign):
         found = adapted(problem, rest.state.z, terrain, active, loops, landing)
         landing, active = (None, active) if found is None else found
