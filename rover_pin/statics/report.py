@@ -214,8 +214,35 @@ def _forces(
         "springs": MappingProxyType({spring.name: spring.effort(at) for spring in rover.springs}),
         "stops": MappingProxyType(stops),
         "tensions": MappingProxyType(tensions),
+        **_pulling(problem, at, contacts, tensions),
         "redundant": loads.redundant,
         "residuals": MappingProxyType(_residuals(problem, state, loads, contacts, terrain, gaps)),
+    }
+
+
+def _pulling(
+    problem: Problem, at: Kinematics, contacts: tuple[Contact, ...], tensions: dict[str, float]
+) -> dict[str, Any]:
+    """What contacts pull with, and the tight strands' tensions."""
+    resistance, rover = problem.resistance, problem.rover
+    tractions = {shape.name: 0.0 for shape in rover.shapes}
+    if resistance is None:
+        return {"tight": MappingProxyType(dict(tensions)), "tractions": MappingProxyType(tractions)}
+    place = {shape.name: i for i, shape in enumerate(rover.shapes)}
+    owners = np.array([place[contact.wheel] for contact in contacts], dtype=np.int64)
+    normals = np.array([contact.normal for contact in contacts])
+    for contact, tangent in zip(contacts, resistance.tangents(at, owners, normals), strict=True):
+        if tangent.any():
+            tractions[contact.wheel] += resistance.sense * resistance.ratio * contact.load
+    tight = {
+        track.name: tensions[track.name] + abs(sum(tractions.get(c.name, 0.0) for c in track.circles))
+        for track in rover.tracks
+    }
+    return {
+        "tight": MappingProxyType(tight),
+        "tractions": MappingProxyType(tractions),
+        "traction_ratio": resistance.ratio,
+        "resistance": resistance.force,
     }
 
 
@@ -251,7 +278,13 @@ def _residuals(
     weight = problem.weight
     return {
         "equilibrium": residuals.equilibrium(
-            rover, at, problem.reduction.basis, contacts, internal, problem.gravity
+            rover,
+            at,
+            problem.reduction.basis,
+            contacts,
+            internal,
+            problem.gravity,
+            problem.resistance,
         ),
         "gap_m": residuals.gap(rover, at, terrain, contacts),
         "loop_m": residuals.closure(rover, at),
