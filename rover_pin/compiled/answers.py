@@ -37,10 +37,12 @@ class Answers:
         z_m, roll_rad, pitch_rad: (n,) of the root link.
         joint_rad: (n, joints) in the rover's order; m where a joint slides.
         load_n: (n, wheels) N.
+        tension_n: (n, tracks) N.
         redundant: (n,) how many more supports there are than equilibrium determines.
         equilibrium, gap_m, loop_m, complementarity: (n,) residuals, as of a `Stance`.
         value: (n,) per measure asked; -inf where it fails closed.
         wheels: names of wheels, then feet.
+        tracks: names of tracks.
         links: the link of each point of the underside.
         belly: names of the belly's points.
     """
@@ -53,6 +55,7 @@ class Answers:
     pitch_rad: Array
     joint_rad: Array
     load_n: Array
+    tension_n: Array
     redundant: Integers
     equilibrium: Array
     gap_m: Array
@@ -60,6 +63,7 @@ class Answers:
     complementarity: Array
     value: dict[str, Array]
     wheels: tuple[str, ...]
+    tracks: tuple[str, ...]
     links: tuple[str, ...]
     belly: tuple[str, ...]
     _out: Out = field(repr=False)
@@ -175,6 +179,7 @@ def blank(rover: Rover, count: int, measured: bool, free: int = 0) -> Out:
         edges=np.full((rows, len(ON_EDGES), corners), np.nan),
         limiting=np.full((rows, len(ON_EDGES)), -1, dtype=np.int64),
         belly=np.full((rows, len(rover.belly)), np.nan),
+        tensions=np.full((count, len(rover.tracks)), np.nan),
     )
 
 
@@ -206,6 +211,7 @@ def answers_of(
         pitch_rad=out.z[:, 1] + keep,
         joint_rad=joint_rad + keep[:, None],
         load_n=loads,
+        tension_n=out.tensions + keep[:, None],
         redundant=out.redundant,
         equilibrium=out.residuals[:, 0] + keep,
         gap_m=out.residuals[:, 1] + keep,
@@ -213,6 +219,7 @@ def answers_of(
         complementarity=out.residuals[:, 3] + keep,
         value=value,
         wheels=tuple(shape.name for shape in rover.shapes),
+        tracks=tuple(track.name for track in rover.tracks),
         links=links,
         belly=tuple(_numbered(point.link, seen) for point in rover.belly),
         _out=out,

@@ -248,8 +248,6 @@ def _refusal(rover: Rover, terrain: Terrain) -> str:
         return "the terrain is a Python function"
     if not rover.shapes:
         return "nothing of this robot touches the ground"
-    if rover.tracks:
-        return "it has tracks"
     if len({shape.ring + shape.tread for shape in rover.shapes}) > MOST_SIZES:
         return f"its shapes have more than {MOST_SIZES} sizes"
     xmin, xmax, ymin, ymax = terrain.extent

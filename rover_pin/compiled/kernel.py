@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from rover_pin.compiled.bounds import Tiles
 from rover_pin.compiled.margins import heights, least, on_edges, polygon
 from rover_pin.compiled.posed import Integers
+from rover_pin.compiled.residuals import tensions
 from rover_pin.compiled.search import Search
 from rover_pin.compiled.settle import OPEN, SETTLED, settle_one
 from rover_pin.numerics import Array, formula
@@ -23,7 +24,8 @@ class Out(NamedTuple):
         z: (n, free); loads: (n, s) N; residuals: (n, 4).
         corners: (n, s) shapes at the polygon's corners, -1 beyond the last.
         edges: (n, 5, s) measures of ON_EDGES along its edges; limiting: (n, 5) the least one, -1 none.
-        belly: (n, p) m; both are empty where no measures are asked.
+        belly: (n, p) m; edges and these are empty where no measures are asked.
+        tensions: (n, t) N, of the tracks.
     """
 
     code: NDArray[np.uint8]
@@ -37,6 +39,7 @@ class Out(NamedTuple):
     edges: Array
     limiting: Integers
     belly: Array
+    tensions: Array
 
 
 @formula
@@ -86,6 +89,8 @@ def settle_all(
             out.residuals[i],
         )
         out.code[i], out.who[i], out.depth[i], out.redundant[i] = code, who, depth, redundant
+        if code == SETTLED:
+            tensions(p, w, out.tensions[i])
         if code == SETTLED and measured:
             corners = polygon(p, w)
             on_edges(p, w, corners, out.loads[i], out.edges[i])

@@ -6,18 +6,20 @@ import math
 
 from rover_pin.compiled.elastic import elastic_system
 from rover_pin.compiled.ground import Ground
+from rover_pin.compiled.internal import internal_rows
 from rover_pin.compiled.linear import eliminate
 from rover_pin.compiled.posed import Posed
-from rover_pin.compiled.state import follow_contact, gap_row, loop_rows, stop_rows, strut_rows
+from rover_pin.compiled.state import follow_contact, gap_row, loop_rows, stop_rows
 from rover_pin.compiled.walk import walk
 from rover_pin.compiled.work import Work
 from rover_pin.numerics import Array, formula, inlined
+from rover_pin.statics.ground import JUMP
 
 ITERATIONS = 12
 STEP = 1e-7
 """Share of the span, or rad: Newton squares its error, so the step that is this small is the last."""
 
-REACH = 0.4
+REACH = 2.0 * JUMP
 """Farthest landing, as a share of the wheels' span and in rad, as on the plain path."""
 
 
@@ -34,7 +36,7 @@ def newton_step(p: Posed, w: Work, z: Array, cy: float, sy: float) -> float:
     if count > 0 and p.active[count - 1] >= shapes:
         stop_rows(p, w, z)
         w.load[:] = 0.0
-        strut_rows(p, w, cy, sy)
+        internal_rows(p, w, cy, sy)
     if p.n_loops > 0:
         loop_rows(p, w, cy, sy)
     for i in range(count):
@@ -100,7 +102,7 @@ def land(
         else:
             sign = 0.0
             walk(p, z, x, y, cy, sy, w.rot, w.org)
-            if not elastic_system(p, ground, params, table, w, z, x, y, cy, sy, i == 0):
+            if not elastic_system(p, ground, params, table, w, z, cy, sy, i == 0):
                 return False, 0.0
         largest, moved = take_step(p, w, z)
         if not moved <= p.reach:

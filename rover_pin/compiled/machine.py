@@ -51,6 +51,13 @@ class Machine(NamedTuple):
         loop_lengths: (g, l) m, of distance loops.
         strut_joints: (f, 2), of springs between frames.
         strut_translations: (g, f, 2, 3) m, their ends in the joints' frames.
+        track_starts: (t + 1,) first circle of each track.
+        track_joints: (c,) carriers of the tracks' circles.
+        track_planes: (t,) joints that carry the tracks' planes.
+        track_centers: (g, c, 3) m, of the circles, in the frame of their joint.
+        track_axes: (g, t, 3, 3) columns u, v and the plane's axis, in the frame of the plane's joint.
+        track_rho: (g, c) m, signed radii.
+        track_lengths: (g, t) m.
     """
 
     parents: Integers
@@ -77,6 +84,13 @@ class Machine(NamedTuple):
     loop_lengths: Array
     strut_joints: Integers
     strut_translations: Array
+    track_starts: Integers
+    track_joints: Integers
+    track_planes: Integers
+    track_centers: Array
+    track_axes: Array
+    track_rho: Array
+    track_lengths: Array
 
 
 def machine_of(rover: Rover) -> Machine:
@@ -95,6 +109,7 @@ def machine_of(rover: Rover) -> Machine:
     )
     loops = [(loop.first, loop.second) for loop in rover.loops]
     ends = [(strut.first, strut.second) for strut in struts]
+    circles = [circle for track in rover.tracks for circle in track.circles]
     return Machine(
         parents=integers(model.parents),
         turning=turning,
@@ -120,6 +135,13 @@ def machine_of(rover: Rover) -> Machine:
         loop_lengths=_one([loop.length for loop in rover.loops], len(loops)),
         strut_joints=_pairs(ends),
         strut_translations=_one([[f.translation for f in pair] for pair in ends], len(ends), 2, 3),
+        track_starts=integers([0, *np.cumsum([len(track.circles) for track in rover.tracks])]),
+        track_joints=integers([circle.joint for circle in circles]),
+        track_planes=integers([track.joint for track in rover.tracks]),
+        track_centers=_one([circle.center for circle in circles], len(circles), 3),
+        track_axes=_one([track.axes for track in rover.tracks], len(rover.tracks), 3, 3),
+        track_rho=_one([circle.rho for circle in circles], len(circles)),
+        track_lengths=_one([track.length for track in rover.tracks], len(rover.tracks)),
     )
 
 

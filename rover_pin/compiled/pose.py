@@ -31,6 +31,10 @@ if TYPE_CHECKING:
     from rover_pin.statics.problem import Problem
 
 YAW = 3
+
+COLUMN = 2
+"""Column of the base's last coordinate; body b has column COLUMN + b."""
+
 LEAST_TIER = 12
 
 CONTRADICTION = 1e-9
@@ -146,6 +150,8 @@ def _records(
         "n_loop_rows": sum(SIZES[kind] for kind in kinds),
         "n_torsions": len(torsions),
         "n_struts": len(struts),
+        "n_tracks": len(machine.track_planes),
+        "n_circles": len(machine.track_joints),
         "n_belly": len(machine.belly_joints),
         "n_outline": len(machine.outline_joints),
     }
@@ -156,6 +162,7 @@ def _records(
     masses, moments = lumps(machine, placed, len(bodies))
     _put(out, "parents", [body.parent for body in bodies])
     _put(out, "turning", [body.turns for body in bodies])
+    _put(out, "above", [-1, 0, 1, *(COLUMN + body.parent for body in bodies[1:])])
     for k, body in enumerate(bodies):
         out["rotations"][:, k], out["translations"][:, k] = body.rotation, body.origin
     out["basis"][:, : len(bodies), :n] = basis[:, columns]
@@ -183,6 +190,7 @@ def _records(
         joints = machine.strut_joints[:, e]
         owners, origins = points(placed, joints, _wide(machine.strut_translations[:, :, e], count))
         out["strut_bodies"][:, : len(struts), e], out["strut_origins"][:, : len(struts), e] = owners, origins
+    _put_tracks(out, machine, placed)
     _put(out, "torsion_bodies", [body_of[s.column] for s in torsions])
     _put(out, "torsions", [(s.stiffness, s.rest, s.preload) for s in torsions])
     _put(out, "struts", [(s.stiffness, s.preload, s.length_max) for s in struts])
@@ -197,9 +205,22 @@ def _records(
     return out
 
 
+def _put_tracks(out: NDArray[np.void], machine: Machine, placed: Sequence[Placed]) -> None:
+    """Write the tracks into every record."""
+    tracks, circles = len(machine.track_planes), len(machine.track_joints)
+    _put(out, "track_starts", machine.track_starts.tolist())
+    _place(out, "track_bodies", "track_centers", placed, machine.track_joints, machine.track_centers)
+    out["track_rho"][:, :circles] = machine.track_rho
+    _put(out, "track_planes", [placed[joint].body for joint in machine.track_planes])
+    axes = _wide(machine.track_axes, len(out))
+    out["track_axes"][:, :tracks] = rotations(placed, machine.track_planes, axes)
+    out["track_lengths"][:, :tracks] = machine.track_lengths
+
+
 def tier_of(sizes: Mapping[str, int]) -> int:
     """The least of 12, 24, 48, ... that holds a machine of these sizes."""
     needed = [sizes[name] for name in ("n_bodies", "n_free", "n_shapes", "n_loops", "n_torsions", "n_struts")]
+    needed += [sizes["n_tracks"], -(-sizes["n_circles"] // 2)]
     needed += [-(-sizes["n_stops"] // 2), -(-sizes["n_belly"] // 2), -(-sizes["n_outline"] // 8)]
     needed += [-(-sizes["n_loop_rows"] // 2)]
     tier = LEAST_TIER

@@ -30,7 +30,7 @@ def posed_dtype(size: int) -> np.dtype[np.void]:
     Records, because kernels take one as one pointer; sizes by tiers, so that one compilation serves many
     rovers. Every body's frame is turned so that its joint's axis is its z axis, which makes a joint's turn
     two columns to mix. Free coordinates z: the base's height, pitch and roll, then passive joints. One-sided
-    rows are numbered as on the plain path: a contact a shape, then stops, then struts' stops.
+    rows are numbered as on the plain path: a contact a shape, then stops, then struts' stops, then tracks.
     """
     real, whole = np.float64, np.int64
     return np.dtype(
@@ -65,6 +65,14 @@ def posed_dtype(size: int) -> np.dtype[np.void]:
             ("strut_bodies", whole, (size, 2)),  # ends of frame springs
             ("strut_origins", real, (size, 2, 3)),  # m
             ("struts", real, (size, 3)),  # stiffness, preload, greatest length
+            ("track_starts", whole, size + 1),  # first circle of each track
+            ("track_bodies", whole, 2 * size),  # of the circles
+            ("track_centers", real, (2 * size, 3)),  # m
+            ("track_rho", real, 2 * size),  # m, signed radii
+            ("track_planes", whole, size),  # body that carries each track's plane
+            ("track_axes", real, (size, 3, 3)),  # columns u, v and the plane's axis
+            ("track_lengths", real, size),  # m
+            ("above", whole, size + 2),  # the column that each column hangs on: height, pitch, roll, bodies
             ("belly_bodies", whole, 2 * size),
             ("belly", real, (2 * size, 3)),  # m
             ("outline_bodies", whole, 8 * size),  # ascending
@@ -92,6 +100,7 @@ def posed_dtype(size: int) -> np.dtype[np.void]:
 
 COUNTS = (
     "n_bodies", "n_free", "n_shapes", "n_stops", "n_loops", "n_loop_rows", "n_torsions", "n_struts",
+    "n_tracks", "n_circles",
     "n_belly", "n_outline", "n_skin", "n_active", "n_held_loops",
 )  # fmt: skip
 """How many of each a record holds."""

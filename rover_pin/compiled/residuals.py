@@ -12,6 +12,7 @@ from rover_pin.compiled.state import gravity_load
 from rover_pin.compiled.walk import place, turn
 from rover_pin.compiled.work import Work
 from rover_pin.contact.place import distance
+from rover_pin.mechanism.cable import OFF
 from rover_pin.numerics import Array, formula, inlined
 from rover_pin.terrain.surface import tabled
 
@@ -107,6 +108,8 @@ def recompute(
             c = w.contacts
             add_force(w, p.carriers[row], c[row, 1], c[row, 2], c[row, 3], 0.0, 0.0, force)
             gap = max(gap, off_skin(p, ground, params, table, w, row))
+        elif row >= shapes + p.n_stops + p.n_struts:
+            track_forces(p, w, row - shapes - p.n_stops - p.n_struts, force)
         else:
             for k in range(p.n_free):
                 w.internal[k] += force * w.force[row, k]
@@ -118,6 +121,39 @@ def recompute(
     spring_forces(p, w, cy, sy)
     residuals[0] = equilibrium(p, w, cy, sy)
     residuals[1], residuals[2], residuals[3] = gap, opening, odd
+
+
+@formula
+def tensions(p: Posed, w: Work, out: Array) -> None:
+    """Tension of every track (t,) [N]; 0 where it is slack."""
+    first = p.n_shapes + p.n_stops + p.n_struts
+    for t in range(p.n_tracks):
+        out[t] = 0.0
+        for i in range(w.n_touching):
+            if w.touching[i] == first + t:
+                out[t] = w.forces[i]
+
+
+@inlined
+def track_forces(p: Posed, w: Work, t: int, tension: float) -> None:
+    """Add the pulls of a track's spans to the bodies, each where it leaves or meets its circle."""
+    plane = w.plane[t]
+    for a in range(p.track_starts[t], p.track_starts[t + 1]):
+        if w.following[a] == OFF:
+            continue
+        b = p.track_starts[t] + w.following[a]
+        tx, ty = w.spans[a, 0], w.spans[a, 1]
+        for end in range(2):
+            i = a if end == 0 else b
+            rho, pull = p.track_rho[i], tension if end == 0 else -tension
+            u, v = rho * ty, -rho * tx  # from the centre to where the span touches
+            x = w.circles[i, 0] + u * plane[0, 0] + v * plane[0, 1]
+            y = w.circles[i, 1] + u * plane[1, 0] + v * plane[1, 1]
+            z = w.circles[i, 2] + u * plane[2, 0] + v * plane[2, 1]
+            fx = pull * (tx * plane[0, 0] + ty * plane[0, 1])
+            fy = pull * (tx * plane[1, 0] + ty * plane[1, 1])
+            fz = pull * (tx * plane[2, 0] + ty * plane[2, 1])
+            add_force(w, p.track_bodies[i], x, y, z, fx, fy, fz)
 
 
 @inlined

@@ -18,15 +18,18 @@ from rover_pin.compiled.underside import CLEAR, IN_GROUND, look_below
 from rover_pin.compiled.walk import place, turn, walk
 from rover_pin.compiled.work import Work
 from rover_pin.numerics import Array, formula, inlined
+from rover_pin.statics.relax import UPRIGHT as MOST_TILT
+from rover_pin.statics.report import ACCEPTED as LARGEST
+from rover_pin.statics.report import BALANCED
 from rover_pin.terrain.surface import LINEAR, tabled
 
 SETTLED, GROUNDED, OFF_MAP, OPEN = 0, 1, 2, 255
 
-# As on the plain path.
-BALANCED = 1e-7
-ACCEPTED = 1e-6
-UPRIGHT = math.cos(math.radians(80.0))
+ACCEPTED = min(LARGEST.values())
+UPRIGHT = math.cos(MOST_TILT)
+
 WINDOW = 1e-5
+"""m: further places of a shape within this of its least gap are looked for."""
 
 REPEATS = 4
 """Landings tried where a shape turns out to touch nearer elsewhere."""
@@ -87,9 +90,9 @@ def settle_one(
                     break
         else:
             landed, sign = land(p, ground, params, table, w, z, x, y, cy, sy)
-        if not landed or sign != p.sign or is_loose(p, ground, params, table, w, z, x, y, cy, sy):
-            return OPEN, -1, 0.0, 0
         walk(p, z, x, y, cy, sy, w.rot, w.org)
+        if not landed or sign != p.sign or is_loose(p, ground, params, table, w, z, cy, sy):
+            return OPEN, -1, 0.0, 0
         lowest, open_gap = 0.0, 0.0
         for i in range(p.n_shapes):
             if not is_proven(p, ground, params, table, tiles, w, i):
@@ -123,13 +126,12 @@ def begin(p: Posed, w: Work, z: Array, x: float, y: float, cy: float, sy: float,
 
 @formula
 def is_loose(
-    p: Posed, ground: Ground, params: Array, table: Array, w: Work, z: Array, x: float, y: float, cy: float,
-    sy: float,
-) -> bool:  # fmt: skip
+    p: Posed, ground: Ground, params: Array, table: Array, w: Work, z: Array, cy: float, sy: float
+) -> bool:
     """Whether the pose hangs on a stiffness that does not resist every free motion."""
     if p.n_active + p.n_held_loops == p.n_free:
         return False
-    return not is_steady(p, ground, params, table, w, z, x, y, cy, sy)
+    return not is_steady(p, ground, params, table, w, z, cy, sy)
 
 
 @formula

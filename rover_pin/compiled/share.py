@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from rover_pin.compiled.elastic import least_forces
+from rover_pin.compiled.internal import internal_rows
 from rover_pin.compiled.linear import eliminate
 from rover_pin.compiled.posed import Posed
-from rover_pin.compiled.state import force_row, gravity_load, loop_rows, stop_rows, strut_rows, torsion_loads
+from rover_pin.compiled.state import force_row, gravity_load, loop_rows, stop_rows, torsion_loads
 from rover_pin.compiled.work import Work
 from rover_pin.numerics import Array, formula
-
-# As on the plain path.
-PENETRATION = -2e-7
-NEGATIVE = -1e-9
-TOUCHING = 1e-6
-STOPPED = 1e-8
+from rover_pin.statics.follow import OPEN as PENETRATION
+from rover_pin.statics.ground import NOT_NEGATIVE
+from rover_pin.statics.loads import STOPPED, TOUCHING
 
 
 @formula
@@ -27,7 +25,7 @@ def share(p: Posed, w: Work, z: Array, cy: float, sy: float) -> int:
         among redundant supports, or other supports than those landed on.
     """
     n, shapes = p.n_free, p.n_shapes
-    rows = shapes + p.n_stops + p.n_struts
+    rows = shapes + p.n_stops + p.n_struts + p.n_tracks
     gravity_load(p, w, cy, sy)
     for i in range(3):
         w.com[i] = w.subtree[0, i] / w.masses[0]
@@ -35,13 +33,12 @@ def share(p: Posed, w: Work, z: Array, cy: float, sy: float) -> int:
         torsion_loads(p, w, z)
     if p.n_stops > 0:
         stop_rows(p, w, z)
-    if p.n_struts > 0:
-        strut_rows(p, w, cy, sy)
+    internal_rows(p, w, cy, sy)
     if p.n_loops > 0:
         loop_rows(p, w, cy, sy)
     count = 0
     for row in range(rows):
-        if row >= shapes and w.slack[row] < PENETRATION:
+        if row >= shapes and not w.slack[row] >= PENETRATION:
             return -1
         if w.slack[row] <= (TOUCHING if row < shapes else STOPPED):
             if row < shapes:
@@ -71,7 +68,7 @@ def share(p: Posed, w: Work, z: Array, cy: float, sy: float) -> int:
     elif not least_forces(p, w, held, w.forces):
         return -1
     for i in range(count):
-        if w.forces[i] < NEGATIVE * p.weight:
+        if w.forces[i] < NOT_NEGATIVE * p.weight:
             return -1
         w.forces[i] = max(w.forces[i], 0.0)
     redundant: int = max(held - n, 0)

@@ -12,7 +12,7 @@ from rover_pin.compiled.search import Search
 from rover_pin.compiled.track import track
 from rover_pin.compiled.walk import place, point_row, turn, turn_row
 from rover_pin.compiled.work import CONTACTS, Work
-from rover_pin.mechanism.closure import SIZES, close, push, strut, torque
+from rover_pin.mechanism.closure import SIZES, close, torque
 from rover_pin.numerics import Array, formula, inlined
 
 
@@ -105,29 +105,6 @@ def stop_rows(p: Posed, w: Work, z: Array) -> None:
         for c in range(p.n_free):
             w.motion[first + k, c] = -sign * p.basis[b, c]
             w.force[first + k, c] = w.motion[first + k, c]
-
-
-@formula
-def strut_rows(p: Posed, w: Work, cy: float, sy: float) -> None:
-    """Slack and gradient of struts' stops, length_max - length; their push goes off the load."""
-    first = p.n_shapes + p.n_stops
-    for f in range(p.n_struts):
-        length = strut_gradient(p, w, cy, sy, f)
-        force = push(length, p.struts[f, 0], p.struts[f, 1], p.struts[f, 2])
-        w.slack[first + f] = p.struts[f, 2] - length
-        for c in range(p.n_free):
-            w.motion[first + f, c] = -w.gradient[c]
-            w.force[first + f, c] = -w.gradient[c]
-            w.load[c] -= force * w.gradient[c]
-
-
-@formula
-def strut_gradient(p: Posed, w: Work, cy: float, sy: float, f: int) -> float:
-    """Length of strut f [m]; its gradient in `w.gradient`."""
-    for e in range(2):
-        jacobian = w.first if e == 0 else w.second
-        _point_jacobian(p, w, cy, sy, p.strut_bodies[f, e], p.strut_origins[f, e], e, jacobian)
-    return strut(w.origin[0], w.first, w.origin[1], w.second, w.gradient)
 
 
 @formula

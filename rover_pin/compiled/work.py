@@ -16,7 +16,7 @@ CONTACTS = 8
 def work_dtype(size: int) -> np.dtype[np.void]:
     """Scratch for machines of `posed_dtype(size)`; nothing of one case is read by the next."""
     real, whole = np.float64, np.int64
-    rows = 6 * size  # shapes, stops, struts and loops' rows
+    rows = 7 * size  # shapes, stops, struts, tracks and loops' rows
     return np.dtype(
         [
             ("rot", real, (size, 3, 3)),  # frames of bodies, world
@@ -47,6 +47,27 @@ def work_dtype(size: int) -> np.dtype[np.void]:
             ("frame", real, (2, 3, 3)),
             ("origin", real, (2, 3)),
             ("gradient", real, size),
+            ("turn", real, (size + 2, 3)),  # columns of the tree, see `rover_pin.mechanism.columns`
+            ("move", real, (size + 2, 3)),
+            ("rates", real, (size + 2, 3)),
+            ("slope", real, size + 2),  # a derivative by columns
+            ("curved", real, (size + 2, size + 2)),  # second derivatives by columns
+            ("half", real, (size + 2, size)),
+            ("pull", real, (size + 2, 3)),  # dead forces
+            ("spread", real, (size + 2, 3, 3)),
+            ("slide", real, (2, 6)),
+            ("ends", whole, 2),
+            ("tips", real, (2, 3)),  # m, ends of a strut
+            ("pulls", real, 6),  # multipliers of a loop
+            ("circles", real, (2 * size, 3)),  # m, centres of tracks' circles, world
+            ("flat", real, (2 * size, 2)),  # m, in their plane
+            ("plane", real, (size, 3, 3)),
+            ("following", whole, 2 * size),
+            ("spans", real, (2 * size, 3)),
+            ("turns", real, 2 * size),
+            ("carriers", whole, 2 * size),  # columns of the circles
+            ("flat_pulls", real, (2 * size, 2)),
+            ("world_pulls", real, (2 * size, 3)),
             ("wrench", real, (size, 6)),  # force and moment on each body
             ("internal", real, size),
             ("masses", real, size),  # of subtrees

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from rover_pin.numerics import Array, formula
-from rover_pin.terrain.surface import surface
+from rover_pin.terrain.surface import tabled
 
 
 @formula
@@ -20,7 +20,7 @@ def slide(
     nn = az - hx ax - hy ay. Implicit differentiation; the ground must be smooth there.
 
     Args:
-        kind: of the surface.
+        kind: of the surface, no CALLABLE.
         table: its table.
         params: its parameters.
         cx: x of the centre [m].
@@ -34,7 +34,7 @@ def slide(
         y: of the contact [m].
         out: (2, 6) receives d(x, y) / d(C, a) [-, m].
     """
-    h, hx, hy, hxx, hxy, hyy = surface(kind, table, params, x, y)
+    h, hx, hy, hxx, hxy, hyy = tabled(kind, table, params, x, y)
     nn = az - hx * ax - hy * ay
     dx, dy, dz = hx + nn * ax, hy + nn * ay, nn * az - 1.0
     size = max(math.sqrt(dx * dx + dy * dy + dz * dz), 1e-12)

@@ -133,29 +133,6 @@ def quaternion_between(r1: Array, r2: Array) -> tuple[float, float, float, float
 
 
 @formula
-def strut(o1: Array, j1: Array, o2: Array, j2: Array, gradient: Array) -> float:
-    """Distance of two places [m] and its derivative.
-
-    Args:
-        o1: (3,) m, world.
-        j1: (>= 3, n) its velocity, world axes.
-        o2: the other place.
-        j2: likewise.
-        gradient: (n,) receives d length / dz; zero where the places coincide.
-
-    Returns:
-        The length.
-    """
-    ex, ey, ez = o2[0] - o1[0], o2[1] - o1[1], o2[2] - o1[2]
-    length = math.sqrt(ex * ex + ey * ey + ez * ez)
-    s = 1.0 / length if length > 0.0 else 0.0
-    for k in range(j1.shape[1]):
-        along = ex * (j2[0, k] - j1[0, k]) + ey * (j2[1, k] - j1[1, k]) + ez * (j2[2, k] - j1[2, k])
-        gradient[k] = s * along
-    return length
-
-
-@formula
 def push(length: float, stiffness: float, preload: float, length_max: float) -> float:
     """Force of a strut [N]: preload + stiffness (length_max - length)."""
     return preload + stiffness * (length_max - length)
