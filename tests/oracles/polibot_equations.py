@@ -1,18 +1,19 @@
 """The 21 equations of Ugenti et al. for Polibot's half model, corrected, solved by Newton: no project code.
 
-mm, N, rad; X rearwards, Z up, angles counter-clockwise (theta: nose down positive), points as X + i Z. Unknowns:
-X_A, Z_A, theta, theta1..4 and T1, T2, F3..F6, N3..N6, k_c, Fel1..3 (Tables 3 and 4). Equations: (2) to (7), (8)
-with its moments from the free bodies, (10) and (11). What is printed wrong there and corrected here:
+mm, N, rad; X rearwards, Z up, angles counter-clockwise (theta: nose down positive), points as X + i Z.
+Unknowns: X_A, Z_A, theta, theta1..4 and T1, T2, F3..F6, N3..N6, k_c, Fel1..3 (Tables 3 and 4). Equations: (2)
+to (7), (8) with its moments from the free bodies, (10) and (11). What is printed wrong there and corrected:
 
 - B.5 to B.8: theta in the subframe's terms. C.1: L1 = distance H to J, and Fel1 along it.
 - D.1, D.6, D.7: see `taut_belt`.
-- E.3, E.5, E.7 and rows 3 to 8 of (8): moments of all forces about G and about the arms' hinges. A wheel's centre
-  takes T_in (t_c - t_in) + T_out (t_out - t_c) + N upwards: the ground's tangential force pulls on the track,
-  whose tension steps from T_in to T_out = T_in + F_i where the wheel touches (t_c the track's direction there).
-  On level ground these are the paper's terms: T2 at the bottom of wheel 3, T1 at that of wheel 6.
+- E.3, E.5, E.7 and rows 3 to 8 of (8): moments of all forces about G and about the arms' hinges. A wheel's
+  centre takes T_in (t_c - t_in) + T_out (t_out - t_c) + N upwards: the ground's tangential force pulls on the
+  track, whose tension steps from T_in to T_out = T_in + F_i where the wheel touches (t_c the track's direction
+  there). On level ground these are the paper's terms: T2 at the bottom of wheel 3, T1 at that of wheel 6.
 
-Contacts are at the wheels' lowest points. Where the paper's regime does not hold, an equation gives way to its
-complement: N_i = 0 for a wheel off the ground, T2 = 0 for a slack track, L = Lmax for a spring below its preload.
+Contacts are at the wheels' lowest points. Where the paper's regime does not hold, an equation gives way to
+its complement: N_i = 0 for a wheel off the ground, T2 = 0 for a slack track, L = Lmax for a spring below its
+preload.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """A taut belt around discs of a plane, by complex numbers: no project code.
 
 Points are x + i y; the discs stand in counter-clockwise order and the belt has every one on its left. Between
-discs i and j a span leaves along the unit t with c_j - c_i = t (s - i (r_i - r_j)), s = sqrt(|d|^2 - dr^2) its
-length (Appendix D of Ugenti et al. with D.6 as sqrt(C^2 - dR^2)); a disc's arc is r arg(t_out / t_in) (D.1). A
-disc with a negative arc lies above its neighbours' chord: the belt does not touch it.
+discs i and j a span leaves along the unit t with c_j - c_i = t (s - i (r_i - r_j)), s = sqrt(|d|^2 - dr^2)
+its length (Appendix D of Ugenti et al. with D.6 as sqrt(C^2 - dR^2)); a disc's arc is r arg(t_out / t_in)
+(D.1). A disc with a negative arc lies above its neighbours' chord: the belt does not touch it.
 """
 
 from __future__ import annotations
