@@ -8,7 +8,7 @@ to (7), (8) with its moments from the free bodies, (10) and (11). What is printe
 - D.1, D.6, D.7: see `taut_belt`.
 - E.3, E.5, E.7 and rows 3 to 8 of (8): moments of all forces about G and about the arms' hinges. A wheel's
   centre takes T_in (t_c - t_in) + T_out (t_out - t_c) + N upwards: the ground's tangential force pulls on the
-  track, whose tension steps from T_in to T_out = T_in + F_i where the wheel touches (t_c the track's direction
+  track, whose tension steps from T_in to T_out = T_in + F_i at the wheel's contact (t_c the track's direction
   there). On level ground these are the paper's terms: T2 at the bottom of wheel 3, T1 at that of wheel 6.
 
 Contacts are at the wheels' lowest points. Where the paper's regime does not hold, an equation gives way to
