@@ -92,17 +92,15 @@ def _moves(data: xr.Dataset) -> tuple[Array, Array, Array]:
 
 
 def _slopes(moves: Array, changes: Array) -> tuple[Array, Array, Array]:
-    """(f,) slopes at the nominal value over the far and over the near pair; (f,) the jump between the sides.
+    """(f,) slopes at the nominal value over the far and over the near pair; (f, 2) slopes to either side.
 
     Args:
         moves: (4,) of the parameter: the far pair, then the near one.
         changes: (f, 4) of the figures.
     """
     far, near = (_parabola(moves[pair], changes[:, pair]) for pair in (slice(0, 2), slice(2, 4)))
-    if moves[2] * moves[3] > 0:
-        return far, near, np.full(len(near), np.nan)
-    sides = changes[:, 2:] / moves[2:]
-    return far, near, sides[:, 1] - sides[:, 0]
+    one_sided = moves[2] * moves[3] > 0
+    return far, near, np.full_like(changes[:, 2:], np.nan) if one_sided else changes[:, 2:] / moves[2:]
 
 
 def _parabola(moves: Array, changes: Array) -> Array:
@@ -112,9 +110,9 @@ def _parabola(moves: Array, changes: Array) -> Array:
     return slope
 
 
-def _judged(far: Array, near: Array, jump: Array, step: float, size: Array) -> tuple[Array, Array, Array]:
-    """The slope, how far it is from a line's, and how much of a kink there is."""
+def _judged(far: Array, near: Array, sides: Array, step: float, size: Array) -> tuple[Array, Array, Array]:
+    """The slope, how far it is from a line's, and how far apart the sides are."""
     least = NOISE * np.maximum(size, NOISE) / step
-    larger = np.maximum(np.maximum(np.abs(far), np.abs(near)), least)
-    kink = np.abs(jump) / np.maximum(larger, 0.5 * np.abs(jump))
-    return near, np.abs(far - near) / larger, np.where(np.abs(jump) <= least, np.minimum(kink, 0.0), kink)
+    curved = np.abs(far - near) / np.maximum(np.maximum(np.abs(far), np.abs(near)), least)
+    broken = np.abs(sides[:, 1] - sides[:, 0]) / np.maximum(np.abs(sides).max(axis=1), least)
+    return near, curved, broken
