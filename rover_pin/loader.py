@@ -21,7 +21,7 @@ from rover_pin.description.parameters import parameter_values
 from rover_pin.description.prepare import prepare
 from rover_pin.description.recipe import Recipe
 from rover_pin.description.shapes import Placer
-from rover_pin.description.sidecar import Sidecar, load_sidecar, read_sidecar
+from rover_pin.description.sidecar import Sidecar, formulas_of, load_sidecar, read_sidecar
 from rover_pin.description.stated import checked_postures, lockable_joints, resolve_springs
 from rover_pin.mechanism import Kinematics
 from rover_pin.rover import Rover
@@ -93,8 +93,11 @@ def _from_files(
 ) -> Rover:
     spec, sidecar_text = (Sidecar(), None) if sidecar_path is None else load_sidecar(sidecar_path)
     values = parameter_values(spec.parameters, parameters)
+    used: set[str] = set()
+    if sidecar_text is not None:
+        used.update(*(formula.names for formula in formulas_of(sidecar_text, sidecar_path).values()))
     notes = Notes()
-    text = expand(path, values, Packages(path, packages), notes, skip, sidecar_path)
+    text = expand(path, values, Packages(path, packages), notes, skip, sidecar_path, used)
     return assemble(
         Recipe(bundled, path, text, sidecar_path, sidecar_text, values, packages, skip, notes=notes.lines())
     )
@@ -107,7 +110,7 @@ def assemble(recipe: Recipe) -> Rover:
         InputError: what is wrong in the texts.
     """
     file, text = recipe.sidecar_path, recipe.sidecar_text
-    sidecar = Sidecar() if text is None else read_sidecar(text, file)
+    sidecar = Sidecar() if text is None else read_sidecar(text, file, recipe.parameters)
     notes = Notes(recipe.notes)
     if text is None:
         notes.add("no sidecar: suspension, wheels and actuation are only what the URDF says")

@@ -43,6 +43,9 @@ def stance_object(stance: Stance, margins: Mapping[str, Margin]) -> dict[str, An
             for name in contacts
         },
         "tensions_n": stance.tensions,
+        "tight_tensions_n": stance.tight,
+        "tractions_n": stance.tractions,
+        "traction_ratio": stance.traction_ratio,
         "springs_n": stance.springs,
         "stability": {
             name: {

@@ -14,12 +14,16 @@ from rover_pin.compiled.design_parts import belly, loops, struts, touching, whee
 from rover_pin.compiled.design_plan import Plan, Reader
 from rover_pin.compiled.design_rows import Flags, Sheet, refs
 from rover_pin.compiled.design_scan import Scanned, finite_nodes, scan
+from rover_pin.compiled.design_sidecar import check_sizes, is_followed, sizes, springs, tracks
 from rover_pin.compiled.design_tree import Walked, walk_tree
 from rover_pin.compiled.machine import Machine
+from rover_pin.description.formulas import Formula, Number, Path
 from rover_pin.description.notes import Notes
 from rover_pin.description.prepare import prepare
-from rover_pin.description.sidecar import Sidecar, read_sidecar
-from rover_pin.description.trace import Trace
+from rover_pin.description.reading import dotted
+from rover_pin.description.recipe import Recipe
+from rover_pin.description.sidecar import Sidecar, formulas_of, read_sidecar
+from rover_pin.description.trace import Trace, UntraceableError
 from rover_pin.description.trace_expand import TracedText
 from rover_pin.description.trace_values import evaluate
 from rover_pin.description.tree import parse
@@ -53,6 +57,7 @@ class Blueprint:
         plan: the tree.
         couplings: before the loader drops any.
         scanned: what else the loader looks at.
+        formulas: of the sidecar, that hang on a parameter that varies.
     """
 
     rover: Rover
@@ -62,6 +67,7 @@ class Blueprint:
     plan: Plan
     couplings: tuple[Coupled, ...]
     scanned: Scanned
+    formulas: Mapping[Path, Formula]
 
     def make(self, parameters: Mapping[str, Array]) -> Made:
         """Machines from (n,) values of every varied parameter, n > 0."""
@@ -73,11 +79,18 @@ class Blueprint:
             name: np.where(inside, array, self.rover.parameters[name]) for name, array in parameters.items()
         }
         with np.errstate(all="ignore"):
-            sheet = Sheet(evaluate(self.trace, usable, self._wanted(), finite_nodes(self.scanned)))
+            nodes = evaluate(self.trace, usable, self._wanted(), finite_nodes(self.scanned))
+            known: dict[str, Number] = {**self.rover.parameters, **usable}
+            stated = {path: np.asarray(formula.value(known)) for path, formula in self.formulas.items()}
+            sheet = Sheet(nodes, stated)
+            for stated_numbers in stated.values():
+                sheet.require(np.isfinite(stated_numbers))
+            check_sizes(sheet)
             sheet.require(inside)
             self.scanned.check(sheet)
             machine = self._machine(walk_tree(self.plan, sheet), sheet)
-        numbers = {name: a for name, a in machine._asdict().items() if a.dtype == np.float64}
+        arrays: dict[str, Any] = machine._asdict()
+        numbers = {name: array for name, array in arrays.items() if array.dtype == np.float64}
         for name in numbers.keys() - {"lower", "upper"}:
             sheet.require(np.isfinite(numbers[name]).reshape(len(inside), -1).all(axis=1))
         for array in () if sheet.valid.all() else numbers.values():
@@ -117,6 +130,9 @@ class Blueprint:
             coupling_offsets=offsets,
             belly=points,
             outline=corners,
+            **springs(self.sidecar, sheet),
+            **sizes(self.sidecar, sheet),
+            **tracks(self.rover, self.sidecar, centers, sheet),
             loop_rotations=loop_rotations,
             loop_translations=loop_translations,
             loop_lengths=loop_lengths,
@@ -162,11 +178,32 @@ def read_blueprint(rover: Rover, nominal: Machine, traced: TracedText) -> Bluepr
     """
     recipe, trace = rover.recipe, traced.trace
     sidecar = (
-        Sidecar() if recipe.sidecar_text is None else read_sidecar(recipe.sidecar_text, recipe.sidecar_path)
+        Sidecar()
+        if recipe.sidecar_text is None
+        else read_sidecar(recipe.sidecar_text, recipe.sidecar_path, recipe.parameters)
     )
     made = prepare(recipe, sidecar, Notes())
     tree = parse(traced.text, str(recipe.source))
     scanned = scan(tree, trace)
     plan = Reader(rover, made, tree, sidecar, trace).plan()
     couplings = read_couplings(made, tree, sidecar, trace)
-    return Blueprint(rover, nominal, sidecar, trace, plan, couplings, scanned)
+    formulas = _varied_formulas(recipe, set(trace.names))
+    return Blueprint(rover, nominal, sidecar, trace, plan, couplings, scanned, formulas)
+
+
+def _varied_formulas(recipe: Recipe, names: set[str]) -> dict[Path, Formula]:
+    """The sidecar's formulas that hang on a parameter that varies.
+
+    Raises:
+        UntraceableError: one in a place from which no array of a design is made.
+    """
+    if recipe.sidecar_text is None:
+        return {}
+    found = formulas_of(recipe.sidecar_text, recipe.sidecar_path)
+    varied = {path: formula for path, formula in found.items() if formula.names & names}
+    for path in varied:
+        if not is_followed(path):
+            raise UntraceableError(
+                "designs do not follow a formula here", file=recipe.sidecar_path, element=dotted(path)
+            )
+    return varied

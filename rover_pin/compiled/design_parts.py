@@ -51,20 +51,21 @@ def wheel_links(rover: Rover, sidecar: Sidecar, walked: Walked) -> frozenset[str
 def touching(rover: Rover, sidecar: Sidecar, walked: Walked, sheet: Sheet) -> tuple[Array, Array]:
     """(n, s, 3) m centres and (n, s, 3) unit axes of wheels and feet, in their carriers' frames."""
     centers, axes = [], []
-    for spec, wheel in zip(sidecar.wheels, rover.wheels, strict=True):
-        center, axis = _wheel(spec, wheel, walked, sheet)
+    for i, (spec, wheel) in enumerate(zip(sidecar.wheels, rover.wheels, strict=True)):
+        center, axis = _wheel(spec, i, wheel, walked, sheet)
         centers.append(center)
         axes.append(axis)
-    for foot, shape in zip(sidecar.contacts, rover.feet, strict=True):
-        centers.append(moved(seat_of(walked, foot.frame).place, np.array([foot.center])))
+    for i, (foot, shape) in enumerate(zip(sidecar.contacts, rover.feet, strict=True)):
+        local = sheet.numbers(foot.center, "contacts", i, "center")
+        centers.append(moved(seat_of(walked, foot.frame).place, local))
         axes.append(shape.axis[None])
     return sheet.stack(centers, 3), sheet.stack(axes, 3)
 
 
-def _wheel(spec: WheelSpec, wheel: Wheel, walked: Walked, sheet: Sheet) -> tuple[Array, Array]:
+def _wheel(spec: WheelSpec, i: int, wheel: Wheel, walked: Walked, sheet: Sheet) -> tuple[Array, Array]:
     """Centre and axis; designs are left out whose joint turns it about itself where nominally it does not."""
     seat = seat_of(walked, spec.frame)
-    center = moved(seat.place, np.array([spec.center]))
+    center = moved(seat.place, sheet.numbers(spec.center, "wheels", i, "center"))
     joint = walked.joints.get(seat.joint)
     turning = None if joint is None or joint.sliding else joint.axis
     axis = turning
@@ -83,14 +84,23 @@ def _wheel(spec: WheelSpec, wheel: Wheel, walked: Walked, sheet: Sheet) -> tuple
 def belly(sidecar: Sidecar, walked: Walked, sheet: Sheet) -> tuple[Integers, Array]:
     """(b,) joints and (n, b, 3) m points."""
     seats = [seat_of(walked, spec.frame) for spec in sidecar.belly]
-    points = [moved(s.place, np.array([p.point])) for s, p in zip(seats, sidecar.belly, strict=True)]
+    points = [
+        moved(seat.place, sheet.numbers(spec.point, "belly", i, "point"))
+        for i, (seat, spec) in enumerate(zip(seats, sidecar.belly, strict=True))
+    ]
     return integers(seat.joint for seat in seats), sheet.stack(points, 3)
 
 
 def struts(sidecar: Sidecar, walked: Walked, sheet: Sheet) -> Array:
     """(n, f, 2, 3) m, ends of springs between frames."""
-    springs = [spec for spec in sidecar.springs if isinstance(spec, FrameSpringSpec)]
-    ends = [[_frame(walked, frame).place[1] for frame in spec.frames] for spec in springs]
+    ends = [
+        [
+            _frame(walked, sheet, frame, "springs", i, "frames", k).place[1]
+            for k, frame in enumerate(spec.frames)
+        ]
+        for i, spec in enumerate(sidecar.springs)
+        if isinstance(spec, FrameSpringSpec)
+    ]
     return sheet.stack([sheet.stack(pair, 3) for pair in ends], 2, 3)
 
 
@@ -98,9 +108,11 @@ def loops(sidecar: Sidecar, walked: Walked, sheet: Sheet) -> tuple[Array, Array,
     """(n, l, 2, 3, 3) rotations, (n, l, 2, 3) m places and (n, l) m lengths of loops' frames."""
     rotations, places, lengths = [], [], []
     zero = _at_zero(walked) if any(spec.at == "zero" for spec in sidecar.loops) else {}
-    for spec in sidecar.loops:
-        first, second = (_frame(walked, frame) for frame in spec.frames)
-        length = np.array([spec.length or 0.0])
+    for i, spec in enumerate(sidecar.loops):
+        first, second = (
+            _frame(walked, sheet, frame, "loops", i, "frames", k) for k, frame in enumerate(spec.frames)
+        )
+        length = sheet.number(spec.length or 0.0, "loops", i, "length")
         place = second.place
         if spec.at == "zero":
             here, there = (behind(zero[s.joint], s.place) for s in (first, second))
@@ -114,12 +126,12 @@ def loops(sidecar: Sidecar, walked: Walked, sheet: Sheet) -> tuple[Array, Array,
     return sheet.stack(rotations, 2, 3, 3), sheet.stack(places, 2, 3), sheet.stack(lengths)
 
 
-def _frame(walked: Walked, spec: str | FrameSpec) -> Seat:
+def _frame(walked: Walked, sheet: Sheet, spec: str | FrameSpec, *path: str | int) -> Seat:
     if isinstance(spec, str):
         return seat_of(walked, spec)
     seat = seat_of(walked, spec.link)
     turn = np.asarray(pin.rpy.rpyToMatrix(*spec.rpy), dtype=np.float64)[None]
-    return Seat(seat.joint, behind(seat.place, (turn, np.array([spec.xyz]))))
+    return Seat(seat.joint, behind(seat.place, (turn, sheet.numbers(spec.xyz, *path, "xyz"))))
 
 
 def _at_zero(walked: Walked) -> dict[int, Place]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -62,10 +62,12 @@ class Sheet:
 
     Attributes:
         values: the trace's nodes.
+        stated: (n,) or (1,) values of the sidecar's formulas, by where they stand in it.
         valid: (n,).
     """
 
     values: Values
+    stated: Mapping[tuple[str | int, ...], Array] = field(default_factory=dict)
     valid: Flags = field(init=False)
 
     def __post_init__(self) -> None:
@@ -80,6 +82,15 @@ class Sheet:
         for i, entry in enumerate(row):
             filled[:, i] = self.values.numbers[entry.index] if isinstance(entry, Ref) else entry
         return filled
+
+    def number(self, nominal: float, *path: str | int) -> Array:
+        """(n,) or (1,): a number of the sidecar, nominal unless it is a formula there."""
+        return self.stated.get(path, np.array([nominal]))
+
+    def numbers(self, nominal: Sequence[float], *path: str | int) -> Array:
+        """(n, k) or (1, k): a list of numbers of the sidecar."""
+        parts = [self.number(float(value), *path, k) for k, value in enumerate(nominal)]
+        return np.stack(np.broadcast_arrays(*parts), axis=1)
 
     def require(self, good: Flags) -> None:
         """Leave to the loader designs that are not good: (n,) or (1,)."""

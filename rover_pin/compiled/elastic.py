@@ -39,14 +39,14 @@ def held_forces(
 ) -> None:
     """Load in `w.load`; of what is held the rows and slacks in `w.rows`, `w.sides` (forces) and `w.gaps`."""
     shapes, n = p.n_shapes, p.n_free
-    count = p.n_active
+    count = w.n_active
     gravity_load(p, w, cy, sy)
     torsion_loads(p, w, z)
     stop_rows(p, w, z)
     internal_rows(p, w, cy, sy)
     loop_rows(p, w, cy, sy)
     for i in range(count):
-        row = p.active[i]
+        row = w.active[i]
         if row < shapes:
             follow_contact(p, ground, params, table, w, row)
             w.slack[row] = w.contacts[row, 0]
@@ -84,7 +84,7 @@ def stiffness(p: Posed, ground: Ground, params: Array, table: Array, w: Work, cy
 
     Frames and contacts are those of the pose; multipliers `w.forces` are kept, contact places slide.
     """
-    m, shapes, count = COLUMN + p.n_bodies, p.n_shapes, p.n_active
+    m, shapes, count = COLUMN + p.n_bodies, p.n_shapes, w.n_active
     above, ref, curved = p.above[:m], w.org[0], w.curved
     columns(p, w, cy, sy)
     curved[:] = 0.0
@@ -97,8 +97,8 @@ def stiffness(p: Posed, ground: Ground, params: Array, table: Array, w: Work, cy
             x, y, z = w.org[b, 0] + x / mass, w.org[b, 1] + y / mass, w.org[b, 2] + z / mass
             add_dead_force(ref, COLUMN + b, x, y, z, 0.0, 0.0, -mass * p.gravity, w.pull, w.spread)
     for i in range(count):
-        if p.active[i] < shapes:
-            bend_contact(p, ground, params, table, w, p.active[i], w.forces[i])
+        if w.active[i] < shapes:
+            bend_contact(p, ground, params, table, w, w.active[i], w.forces[i])
     bend_dead_forces(above, w.turn, w.move, w.pull, w.spread, curved)
     for k in range(p.n_torsions):
         c = COLUMN + p.torsion_bodies[k]
@@ -125,8 +125,8 @@ def stiffness(p: Posed, ground: Ground, params: Array, table: Array, w: Work, cy
 @formula
 def multiplier(p: Posed, w: Work, row: int) -> float:
     """The multiplier of a one-sided row; 0 where it does not carry."""
-    for i in range(p.n_active):
-        if p.active[i] == row:
+    for i in range(w.n_active):
+        if w.active[i] == row:
             force: float = w.forces[i]
             return force
     return 0.0
@@ -155,7 +155,7 @@ def bend_one_loop(p: Posed, w: Work, i: int) -> None:
     w.pulls[:] = 0.0
     for k in range(p.n_held_loops):
         if start <= p.held_loops[k] < p.loop_starts[i + 1]:
-            w.pulls[p.held_loops[k] - start] = w.forces[p.n_active + k]
+            w.pulls[p.held_loops[k] - start] = w.forces[w.n_active + k]
     for e in range(2):
         b = p.loop_bodies[i, e]
         w.ends[e] = COLUMN + b
@@ -201,7 +201,7 @@ def elastic_system(
         False where the system is singular, as where nothing determines a coordinate.
     """
     n = p.n_free
-    held = p.n_active + p.n_held_loops
+    held = w.n_active + p.n_held_loops
     held_forces(p, ground, params, table, w, z, cy, sy)
     if first and not least_forces(p, w, held, w.forces):
         return False
@@ -242,7 +242,7 @@ def is_steady(
     fails here is looked at by the plain path.
     """
     n = p.n_free
-    held = p.n_active + p.n_held_loops
+    held = w.n_active + p.n_held_loops
     free = n - held
     held_forces(p, ground, params, table, w, z, cy, sy)
     stiffness(p, ground, params, table, w, cy, sy)

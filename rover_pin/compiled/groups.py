@@ -117,7 +117,8 @@ def _ready(made: Pose, template: Template, sizes: Array, reach: float, *, same: 
     template.support(records)
     shapes = int(records["n_shapes"][0])
     whole = records["rings"][0, :shapes] + records["treads"][0, :shapes]
-    records["reach_of"][:, :shapes] = RINGS * np.searchsorted(sizes, whole)
+    # any size will do: bounds that do not reach far enough are not used
+    records["reach_of"][:, :shapes] = RINGS * np.minimum(np.searchsorted(sizes, whole), len(sizes) - 1)
     corners = int(records["n_outline"][0])
     away = outline_radii(records["outline_bodies"][0, :corners], records["outline"][:, :corners])
     records["outline_fits"] = np.all(away <= reach, axis=1)

@@ -13,7 +13,7 @@ from rover_pin.compiled.state import follow_contact, gap_row, loop_rows, stop_ro
 from rover_pin.compiled.walk import walk
 from rover_pin.compiled.work import Work
 from rover_pin.numerics import Array, formula, inlined
-from rover_pin.statics.ground import JUMP
+from rover_pin.statics.adapt import JUMP
 
 ITERATIONS = 12
 STEP = 1e-7
@@ -32,15 +32,15 @@ def newton_step(p: Posed, w: Work, z: Array, cy: float, sy: float) -> float:
     Returns:
         Sign of the determinant, 0 where there is no step.
     """
-    shapes, n, count = p.n_shapes, p.n_free, p.n_active
-    if count > 0 and p.active[count - 1] >= shapes:
+    shapes, n, count = p.n_shapes, p.n_free, w.n_active
+    if count > 0 and w.active[count - 1] >= shapes:
         stop_rows(p, w, z)
         w.load[:] = 0.0
         internal_rows(p, w, cy, sy)
     if p.n_loops > 0:
         loop_rows(p, w, cy, sy)
     for i in range(count):
-        row = p.active[i]
+        row = w.active[i]
         if row < shapes:
             w.right[i] = -w.contacts[row, 0]
             gap_row(p, w, cy, sy, row, w.system[i])
@@ -89,13 +89,13 @@ def land(
     Returns:
         whether it landed, and the sign of the determinant (0 where supports do not determine the pose).
     """
-    determinate = p.n_active + p.n_held_loops == p.n_free
+    determinate = w.n_active + p.n_held_loops == p.n_free
     for i in range(ITERATIONS):
         if determinate:
             walk(p, z, x, y, cy, sy, w.rot, w.org)
-            for k in range(p.n_active):
-                if p.active[k] < p.n_shapes:
-                    follow_contact(p, ground, params, table, w, p.active[k])
+            for k in range(w.n_active):
+                if w.active[k] < p.n_shapes:
+                    follow_contact(p, ground, params, table, w, w.active[k])
             sign = newton_step(p, w, z, cy, sy)
             if sign == 0.0:
                 return False, 0.0

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rover_pin.mechanism import FrameSpring
+from rover_pin.mechanism import FrameSpring, JointSpring
 from rover_pin.numerics import Array
 
 if TYPE_CHECKING:
@@ -51,6 +51,10 @@ class Machine(NamedTuple):
         loop_lengths: (g, l) m, of distance loops.
         strut_joints: (f, 2), of springs between frames.
         strut_translations: (g, f, 2, 3) m, their ends in the joints' frames.
+        strut_values: (g, f, 3) stiffness N/m, preload N, greatest length m.
+        torsion_values: (g, k, 3) of joint springs: stiffness, rest, preload.
+        rings: (g, s) m, of wheels and feet.
+        treads: (g, s) m.
         track_starts: (t + 1,) first circle of each track.
         track_joints: (c,) carriers of the tracks' circles.
         track_planes: (t,) joints that carry the tracks' planes.
@@ -84,6 +88,10 @@ class Machine(NamedTuple):
     loop_lengths: Array
     strut_joints: Integers
     strut_translations: Array
+    strut_values: Array
+    torsion_values: Array
+    rings: Array
+    treads: Array
     track_starts: Integers
     track_joints: Integers
     track_planes: Integers
@@ -100,6 +108,7 @@ def machine_of(rover: Rover) -> Machine:
     axes, turning = _axes(model)
     inertias = list(model.inertias)
     struts = [spring for spring in rover.springs if isinstance(spring, FrameSpring)]
+    torsions = [spring for spring in rover.springs if isinstance(spring, JointSpring)]
     belly_joints = integers([point.joint for point in rover.belly])
     belly = _one([point.point for point in rover.belly], len(rover.belly), 3)
     around = rover.read_geometry().around
@@ -135,6 +144,10 @@ def machine_of(rover: Rover) -> Machine:
         loop_lengths=_one([loop.length for loop in rover.loops], len(loops)),
         strut_joints=_pairs(ends),
         strut_translations=_one([[f.translation for f in pair] for pair in ends], len(ends), 2, 3),
+        strut_values=_one([(s.stiffness, s.preload, s.length_max) for s in struts], len(struts), 3),
+        torsion_values=_one([(s.stiffness, s.rest, s.preload) for s in torsions], len(torsions), 3),
+        rings=_one([shape.ring for shape in rover.shapes], len(rover.shapes)),
+        treads=_one([shape.tread for shape in rover.shapes], len(rover.shapes)),
         track_starts=integers([0, *np.cumsum([len(track.circles) for track in rover.tracks])]),
         track_joints=integers([circle.joint for circle in circles]),
         track_planes=integers([track.joint for track in rover.tracks]),

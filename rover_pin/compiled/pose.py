@@ -171,8 +171,7 @@ def _records(
     _place(out, "carriers", "centers", placed, machine.shape_joints, machine.centers)
     shapes = len(rover.shapes)
     out["axes"][:, :shapes] = directions(placed, machine.shape_joints, _wide(machine.shape_axes, count))
-    _put(out, "rings", [shape.ring for shape in rover.shapes])
-    _put(out, "treads", [shape.tread for shape in rover.shapes])
+    out["rings"][:, :shapes], out["treads"][:, :shapes] = machine.rings, machine.treads
     for k, joint in enumerate(problem.stop_joints):
         column, sign = rover.column[joint], problem.stop_sign(k)
         out["stop_bodies"][:, k], out["stop_signs"][:, k] = body_of[column], sign
@@ -192,8 +191,10 @@ def _records(
         out["strut_bodies"][:, : len(struts), e], out["strut_origins"][:, : len(struts), e] = owners, origins
     _put_tracks(out, machine, placed)
     _put(out, "torsion_bodies", [body_of[s.column] for s in torsions])
-    _put(out, "torsions", [(s.stiffness, s.rest, s.preload) for s in torsions])
-    _put(out, "struts", [(s.stiffness, s.preload, s.length_max) for s in struts])
+    joint_springs = [s for s in rover.springs if isinstance(s, JointSpring)]
+    moving = [k for k, s in enumerate(joint_springs) if s.column in body_of]
+    out["torsions"][:, : len(moving)] = machine.torsion_values[:, moving]
+    out["struts"][:, : len(struts)] = machine.strut_values
     _place(out, "belly_bodies", "belly", placed, machine.belly_joints, machine.belly)
     _place(out, "outline_bodies", "outline", placed, machine.outline_joints, machine.outline)
     spans = spans_of(rover, machine, count)

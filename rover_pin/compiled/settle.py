@@ -5,25 +5,30 @@ from __future__ import annotations
 import math
 
 from rover_pin.compiled.bounds import HEIGHT, RINGS, Tiles, sure_within, tile
-from rover_pin.compiled.elastic import is_steady
+from rover_pin.compiled.elastic import held_forces, is_steady
 from rover_pin.compiled.ground import Ground
 from rover_pin.compiled.land import ITERATIONS, STEP, land, newton_step, take_step
+from rover_pin.compiled.linear import eliminate
 from rover_pin.compiled.posed import Posed
 from rover_pin.compiled.residuals import recompute
 from rover_pin.compiled.search import Search
-from rover_pin.compiled.share import PENETRATION, TOUCHING, share
+from rover_pin.compiled.share import share
 from rover_pin.compiled.state import follow_contact, search_contact, start_contacts, tilt_cosine
 from rover_pin.compiled.sweep import DEEPER, UNDECIDED, sweep
 from rover_pin.compiled.underside import CLEAR, IN_GROUND, look_below
 from rover_pin.compiled.walk import place, turn, walk
 from rover_pin.compiled.work import Work
 from rover_pin.numerics import Array, formula, inlined
+from rover_pin.statics.adapt import MOST_CHANGES, NOT_NEGATIVE
+from rover_pin.statics.adapt import OPEN as PENETRATION
+from rover_pin.statics.loads import TOUCHING
 from rover_pin.statics.relax import UPRIGHT as MOST_TILT
 from rover_pin.statics.report import ACCEPTED as LARGEST
 from rover_pin.statics.report import BALANCED
 from rover_pin.terrain.surface import LINEAR, tabled
 
 SETTLED, GROUNDED, OFF_MAP, OPEN = 0, 1, 2, 255
+SAME, CHANGED, IMPOSSIBLE = 0, 1, 2
 
 ACCEPTED = min(LARGEST.values())
 UPRIGHT = math.cos(MOST_TILT)
@@ -74,15 +79,15 @@ def settle_one(
     """
     cy, sy = math.cos(yaw), math.sin(yaw)
     begin(p, w, z, x, y, cy, sy, tabled(ground.kind, table, params, x, y)[0])
-    stands = False
-    for _ in range(REPEATS):
+    stands, changes = False, 0
+    for _ in range(REPEATS + MOST_CHANGES):
         if ground.kind == LINEAR:
             landed, sign = False, 0.0
-            for _ in range(ITERATIONS if p.n_active + p.n_held_loops == p.n_free else 0):
+            for _ in range(ITERATIONS if w.n_active + p.n_held_loops == p.n_free else 0):
                 walk(p, z, x, y, cy, sy, w.rot, w.org)
-                for k in range(p.n_active):
-                    if p.active[k] < p.n_shapes:
-                        search_contact(p, ground, params, table, search, w, p.active[k], 0.0)
+                for k in range(w.n_active):
+                    if w.active[k] < p.n_shapes:
+                        search_contact(p, ground, params, table, search, w, w.active[k], 0.0)
                 sign = newton_step(p, w, z, cy, sy)
                 largest, moved = take_step(p, w, z)
                 landed = sign != 0.0 and moved <= p.reach and largest < STEP
@@ -91,7 +96,22 @@ def settle_one(
         else:
             landed, sign = land(p, ground, params, table, w, z, x, y, cy, sy)
         walk(p, z, x, y, cy, sy, w.rot, w.org)
-        if not landed or sign != p.sign or is_loose(p, ground, params, table, w, z, cy, sy):
+        sprung = p.n_torsions + p.n_struts > 0 and ground.kind != LINEAR
+        if not landed or (changes == 0 and sign != p.sign):
+            if changes > 0 or not sprung:
+                return OPEN, -1, 0.0, 0
+            begin(p, w, z, x, y, cy, sy, tabled(ground.kind, table, params, x, y)[0])
+            drop_internal(p, w)
+            changes += 1
+            continue
+        if sprung and changes < MOST_CHANGES:
+            change = change_supports(p, ground, params, table, tiles, w, z, cy, sy)
+            if change == IMPOSSIBLE:
+                return OPEN, -1, 0.0, 0
+            if change == CHANGED:
+                changes += 1
+                continue
+        if is_loose(p, ground, params, table, w, z, cy, sy):
             return OPEN, -1, 0.0, 0
         lowest, open_gap = 0.0, 0.0
         for i in range(p.n_shapes):
@@ -101,9 +121,9 @@ def settle_one(
                     return OPEN, -1, 0.0, 0
             w.slack[i] = w.contacts[i, 0]
             lowest = min(lowest, w.slack[i])
-        for k in range(p.n_active):
-            if p.active[k] < p.n_shapes:
-                open_gap = max(open_gap, abs(w.slack[p.active[k]]))
+        for k in range(w.n_active):
+            if w.active[k] < p.n_shapes:
+                open_gap = max(open_gap, abs(w.slack[w.active[k]]))
         stands = lowest >= PENETRATION and open_gap < CLOSED
         if stands:
             break
@@ -112,12 +132,67 @@ def settle_one(
     return judge(p, ground, params, table, tiles, skin, w, z, cy, sy, loads, residuals)
 
 
+@formula
+def change_supports(
+    p: Posed, ground: Ground, params: Array, table: Array, tiles: Tiles, w: Work, z: Array, cy: float,
+    sy: float,
+) -> int:  # fmt: skip
+    """Drop supports that would pull, take up rows that are violated, as `rover_pin.statics.adapt.adapted`.
+
+    Returns:
+        SAME, CHANGED, or IMPOSSIBLE where the rows that carry are too many.
+    """
+    shapes, n = p.n_shapes, p.n_free
+    rows = shapes + p.n_stops + p.n_struts + p.n_tracks
+    held_forces(p, ground, params, table, w, z, cy, sy)
+    if w.n_active + p.n_held_loops == n:
+        for c in range(n):
+            w.forces[c] = w.load[c]
+            for i in range(n):
+                w.system[c, i] = w.sides[i, c]
+        if eliminate(w.system, w.forces, n) == 0.0:
+            return IMPOSSIBLE
+    changed, count, i = False, 0, 0
+    for row in range(rows):
+        if i < w.n_active and w.active[i] == row:
+            keep = w.forces[i] >= NOT_NEGATIVE * p.weight
+            i += 1
+            changed = changed or not keep
+        else:
+            if row < shapes:
+                is_proven(p, ground, params, table, tiles, w, row)
+                w.slack[row] = w.contacts[row, 0]
+            keep = not w.slack[row] >= PENETRATION
+            changed = changed or keep
+        if keep:
+            if count + p.n_held_loops == n:
+                return IMPOSSIBLE
+            w.chosen_rows[count] = row
+            count += 1
+    if not changed:
+        return SAME
+    w.n_active = count
+    for k in range(count):
+        w.active[k] = w.chosen_rows[k]
+    return CHANGED
+
+
+@inlined
+def drop_internal(p: Posed, w: Work) -> None:
+    """Leave only contacts among the supports taken as carrying."""
+    while w.n_active > 0 and w.active[w.n_active - 1] >= p.n_shapes:
+        w.n_active -= 1
+
+
 @inlined
 def begin(p: Posed, w: Work, z: Array, x: float, y: float, cy: float, sy: float, level: float) -> None:
     """Put the rover on level ground at the height below its base, its contacts below its shapes' centres."""
     for c in range(p.n_free):
         z[c] = p.start[c]
     z[0] += level
+    w.n_active = p.n_active
+    for i in range(p.n_active):
+        w.active[i] = p.active[i]
     for c in range(p.n_free):
         w.start[c] = z[c]
     walk(p, z, x, y, cy, sy, w.rot, w.org)
@@ -129,7 +204,7 @@ def is_loose(
     p: Posed, ground: Ground, params: Array, table: Array, w: Work, z: Array, cy: float, sy: float
 ) -> bool:
     """Whether the pose hangs on a stiffness that does not resist every free motion."""
-    if p.n_active + p.n_held_loops == p.n_free:
+    if w.n_active + p.n_held_loops == p.n_free:
         return False
     return not is_steady(p, ground, params, table, w, z, cy, sy)
 
@@ -186,7 +261,7 @@ def judge(
         return (GROUNDED if kind == IN_GROUND else OPEN), point, depth, 0
     recompute(p, ground, params, table, w, z, cy, sy, loads, residuals)
     worst = max(max(residuals[0], residuals[1]), max(residuals[2], residuals[3]))
-    unique = redundant == 0 and p.n_active + p.n_held_loops == p.n_free
+    unique = redundant == 0 and w.n_active + p.n_held_loops == p.n_free
     if not worst <= ACCEPTED or (not unique and residuals[0] > BALANCED):
         return OPEN, -1, 0.0, 0
     return SETTLED, -1, 0.0, redundant

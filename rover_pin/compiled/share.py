@@ -9,8 +9,8 @@ from rover_pin.compiled.posed import Posed
 from rover_pin.compiled.state import force_row, gravity_load, loop_rows, stop_rows, torsion_loads
 from rover_pin.compiled.work import Work
 from rover_pin.numerics import Array, formula
-from rover_pin.statics.follow import OPEN as PENETRATION
-from rover_pin.statics.ground import NOT_NEGATIVE
+from rover_pin.statics.adapt import NOT_NEGATIVE
+from rover_pin.statics.adapt import OPEN as PENETRATION
 from rover_pin.statics.loads import STOPPED, TOUCHING
 
 
@@ -56,7 +56,7 @@ def share(p: Posed, w: Work, z: Array, cy: float, sy: float) -> int:
     if held > n:
         if loops > 0 or w.touching[count - 1] >= shapes or not least_squares(p, w, held, n):
             return -1
-    elif count != p.n_active:
+    elif count != w.n_active:
         return -1
     elif held == n:
         for c in range(n):

@@ -36,6 +36,9 @@ def work_dtype(size: int) -> np.dtype[np.void]:
             ("gaps", real, rows),
             ("forces", real, rows),  # multipliers of the same
             ("start", real, size),  # where Newton began
+            ("active", whole, size),  # one-sided rows taken as carrying, ascending
+            ("n_active", whole),
+            ("chosen_rows", whole, size),
             ("kept", real, (size, 2)),  # places put aside
             ("stiffness", real, (size, size)),
             ("along", real, (size, size)),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import io
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -40,6 +40,7 @@ def expand(
     notes: Notes,
     skip_missing_includes: bool = False,
     declared_in: object = None,
+    used: Collection[str] = (),
 ) -> str:
     """The URDF text of a file.
 
@@ -53,10 +54,11 @@ def expand(
         notes: told of skipped includes and of xacro's warnings.
         skip_missing_includes: leave out includes whose file or package is not there.
         declared_in: the file that declares the arguments, named in errors.
+        used: names that its own formulas use, and that need be no xacro argument.
 
     Raises:
         DescriptionError: the file cannot be read, or xacro refuses it, or nothing comes out.
-        SidecarError: a value for a name that is no xacro argument of these files.
+        SidecarError: a value for a name that is no xacro argument of these files and of no formula.
     """
     try:
         text = path.read_text(encoding="utf-8")
@@ -64,12 +66,12 @@ def expand(
         raise DescriptionError(
             f"cannot be read: {error}", file=path, cure="give a URDF or xacro text file"
         ) from error
-    if path.suffix != ".xacro" and not _TAG.search(text):
-        _refuse_undeclared(path, values, None, declared_in)
+    if not is_xacro(path, text):
+        _refuse_undeclared(path, values, None, declared_in, used)
         return text
     arguments = Arguments({name: written(value) for name, value in values.items()})
     expanded, asked = run_xacro(path, text, arguments, packages, notes, skip_missing_includes)
-    _refuse_undeclared(path, values, asked, declared_in)
+    _refuse_undeclared(path, values, asked, declared_in, used)
     if "<link" not in expanded:
         macros = _MACRO.findall(text)
         cure = (
@@ -79,6 +81,11 @@ def expand(
         )
         raise DescriptionError("the xacro expands to no link", file=path, cure=cure)
     return expanded
+
+
+def is_xacro(path: Path, text: str) -> bool:
+    """Whether xacro has to run on a file."""
+    return path.suffix == ".xacro" or bool(_TAG.search(text))
 
 
 def run_xacro(
@@ -162,11 +169,15 @@ def _around_xacro(packages: Packages, notes: Notes, skip: bool) -> Iterator[None
 
 
 def _refuse_undeclared(
-    path: Path, values: Mapping[str, float], asked: set[str] | None, declared_in: object
+    path: Path,
+    values: Mapping[str, float],
+    asked: set[str] | None,
+    declared_in: object,
+    used: Collection[str],
 ) -> None:
     """`asked`: the arguments that xacro asked for, None for plain URDF."""
     for name in values:
-        if asked is not None and name in asked:
+        if name in used or (asked is not None and name in asked):
             continue
         plain = f"{path.name} is plain URDF without arguments"
         raise SidecarError(

@@ -32,9 +32,10 @@ def parse_yaml(text: str, file: object) -> tuple[dict[str, Any], yaml.Node]:
         mark = getattr(problem, "problem_mark", None)
         place = f"{file}:{mark.line + 1}" if mark is not None else file
         why = getattr(problem, "problem", None) or str(problem)
-        raise SidecarError(
-            f"not YAML: {why}", file=place, cure="check indentation, colons and brackets"
-        ) from problem
+        lines = text.splitlines()
+        bare = mark is not None and mark.line < len(lines) and "${" in lines[mark.line]
+        cure = 'write formulas in quotes: "${...}"' if bare else "check indentation, colons and brackets"
+        raise SidecarError(f"not YAML: {why}", file=place, cure=cure) from problem
     if not isinstance(node, yaml.MappingNode) or not isinstance(data, dict):
         raise SidecarError("not a mapping of keys to values", file=file, cure="start with `schema: 1`")
     _refuse_twice(node, file, ())

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Sequence
-from pathlib import Path
+from collections.abc import Mapping, Sequence
+from pathlib import Path as File
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, FiniteFloat, Tag
 
+from rover_pin.description.formulas import Formula, Path, fill_in, formulas_in
 from rover_pin.description.parameters import ParameterSpec
-from rover_pin.description.reading import parse_yaml, validated
+from rover_pin.description.reading import dotted, parse_yaml, place, validated
 from rover_pin.description.specs import (
     BellySpec,
     Direction,
@@ -60,14 +61,23 @@ class Sidecar(BaseModel):
     tracks: tuple[TrackSpec, ...] = ()
 
 
-@functools.lru_cache(maxsize=64)
-def read_sidecar(text: str, file: object) -> Sidecar:
+def read_sidecar(text: str, file: object, values: Mapping[str, float] | None = None) -> Sidecar:
     """A sidecar from its text; the `robot.yaml` of example-parallel-robots is read too.
+
+    Args:
+        text: YAML.
+        file: named in errors.
+        values: of the parameters that formulas are made of; their defaults where silent.
 
     Raises:
         SidecarError: not YAML, another schema, an unknown or missing key, a value of the wrong kind, a name
-            given twice; with the file, the line, the key's path and the cure.
+            given twice, a formula that is none; with the file, the line, the key's path and the cure.
     """
+    return _read(text, file, None if values is None else tuple(sorted(values.items())))
+
+
+@functools.lru_cache(maxsize=64)
+def _read(text: str, file: object, values: tuple[tuple[str, float], ...] | None) -> Sidecar:
     data, node = parse_yaml(text, file)
     if any(key in data for key in _GEPETTO) and "schema" not in data:
         data = _from_gepetto(data, file)
@@ -82,13 +92,29 @@ def read_sidecar(text: str, file: object) -> Sidecar:
             cure=f"this version reads schema {SCHEMA}",
         )
     present = {key: value for key, value in data.items() if value is not None}
+    if any(formulas_in(present)):
+        declared = validated(_Declared, {"parameters": present.get("parameters", {})}, node, file).parameters
+        defaults = {name: float(spec.default) for name, spec in declared.items()}
+        known = {**defaults, **dict(values or ())}
+        fill_in(present, known, lambda path: (place(file, node, path), dotted(path)))
     sidecar = validated(Sidecar, present, node, file)
     for key in ("loops", "couplings", "springs", "tracks"):
         _once([spec.name for spec in getattr(sidecar, key)], key, file)
     return sidecar
 
 
-def load_sidecar(path: Path) -> tuple[Sidecar, str]:
+class _Declared(BaseModel):
+    parameters: dict[str, ParameterSpec] = {}
+
+
+@functools.lru_cache(maxsize=64)
+def formulas_of(text: str, file: object) -> Mapping[Path, Formula]:
+    """The formulas of a sidecar that `read_sidecar` has read, by where they stand in it."""
+    data, _ = parse_yaml(text, file)
+    return {path: Formula(formula) for path, formula in formulas_in(data)}
+
+
+def load_sidecar(path: File) -> tuple[Sidecar, str]:
     """A sidecar from its file, and the text.
 
     Raises:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rover_pin.description.expand import run_xacro, written
+from rover_pin.description.expand import is_xacro, run_xacro, written
 from rover_pin.description.notes import Notes
 from rover_pin.description.packages import Packages
 from rover_pin.description.recipe import Recipe
@@ -37,6 +37,8 @@ def trace_expansion(recipe: Recipe, names: Sequence[str]) -> TracedText:
             raise UntraceableError("no parameter of that name", element=f"parameter {name}")
         value = float(arguments[name])
         arguments[name] = str(trace.parameter(name, int(value) if value.is_integer() else value))
+    if not is_xacro(recipe.source, recipe.text):  # all that varies stands in the sidecar
+        return TracedText(recipe.text, trace)
     try:
         source = recipe.source.read_text(encoding="utf-8")
         packages = Packages(recipe.source, recipe.packages)

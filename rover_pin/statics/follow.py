@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rover_pin.numerics import Array
+from rover_pin.statics.adapt import JUMP, NOT_NEGATIVE, adapted, stands
 from rover_pin.statics.ground import (
-    JUMP,
-    NOT_NEGATIVE,
     Footing,
     failed,
     let_go,
@@ -26,9 +25,6 @@ from rover_pin.statics.verdict import free_motions, steadiness, undetermined_joi
 
 if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
-
-OPEN = -2e-7
-"""m or rad: a gap below this is a penetration, to be resolved by another set of supports."""
 
 FALL = 0.05
 """Share of the span, and rad: a rover that lost a support and moved this far without a rest falls."""
@@ -50,18 +46,20 @@ def straight(problem: Problem, footing: Footing, z: Array, terrain: Terrain) -> 
     else None, and the stance is followed.
     """
     landing = land(problem, z, terrain, footing.active, footing.loops, reach=JUMP * 2.0, iterations=9)
-    if landing is None or not stands(problem, landing, footing.sign):
+    if landing is not None and stands(problem, landing, footing.sign):
+        return replace(footing, z=landing.z)
+    if not problem.elastics:
         return None
-    return replace(footing, z=landing.z)
-
-
-def stands(problem: Problem, landing: Landing, sign: float) -> bool:
-    """Whether a landing is on the branch: no negative load, no penetration, orientation kept."""
-    return bool(
-        landing.sign == sign
-        and np.min(landing.multipliers, initial=0.0) >= NOT_NEGATIVE * problem.weight
-        and np.min(landing.state.slack, initial=0.0) >= OPEN
-    )
+    active = footing.active
+    if landing is None or landing.sign != footing.sign:  # without what binds between bodies
+        active = active[active < len(problem.rover.shapes)]
+        landing = land(problem, z, terrain, active, footing.loops, reach=JUMP * 2.0, iterations=9)
+    if landing is None:
+        return None
+    found = adapted(problem, z, terrain, active, footing.loops, landing)
+    if found is None:
+        return None
+    return replace(footing, z=found.landing.z, active=found.active, sign=found.landing.sign)
 
 
 def follow(

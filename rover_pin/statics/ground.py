@@ -10,6 +10,7 @@ import numpy as np
 from scipy.optimize import nnls
 
 from rover_pin.numerics import Array
+from rover_pin.statics.adapt import NOT_NEGATIVE, adapted, stands
 from rover_pin.statics.loads import STOPPED, Loads, share_loads
 from rover_pin.statics.newton import Landing, independent_rows, land
 from rover_pin.statics.problem import THOROUGH, Integers, Problem, State
@@ -30,14 +31,11 @@ RESTS = (1e-4, 3e-5, 1e-5, 1e-7)
 PUSH = 1e-3
 """Share of the span, or rad: the nudge that tells a stance that stays from one that only balances."""
 
-JUMP = 0.2
-"""Share of the wheels' span, and rad: a motion larger than this over a least step leaves the branch."""
-
 FALLING = 1.0
 """Rad of tilt beyond which a rover that lost a support, and that no support can hold any more, falls over."""
 
-NOT_NEGATIVE = -1e-9
-"""Share of the weight below which a load counts as negative."""
+PAUSE = 25
+"""Steps of a sprung rover's fall after which it is tried whether Newton can finish."""
 
 
 @dataclass(frozen=True)
@@ -123,6 +121,11 @@ def _come_to_rest(
     problem: Problem, z: Array, terrain: Terrain, window: float, lost: str | None, far: float
 ) -> Footing:
     """Relax until Newton can finish."""
+    if problem.elastics:
+        rest = relax(problem, z, terrain, window=window, steps=PAUSE, resting=RESTS[0], far=far)
+        caught = _caught(problem, rest, terrain) if rest.end in ("rest", "lost") else None
+        if caught is not None:
+            return caught
     for resting in RESTS:
         rest = relax(problem, z, terrain, window=window, resting=resting, far=far)
         footing = footing_of(problem, rest, terrain, lost)
@@ -130,6 +133,24 @@ def _come_to_rest(
         if rest.end != "rest" or footing.status is Status.SETTLED:
             break
     return footing
+
+
+def _caught(problem: Problem, rest: Rest, terrain: Terrain) -> Footing | None:
+    """Newton from a sprung rover's fall that need not have ended, on the supports that turn out to carry."""
+    loops = independent_rows(rest.state.closing)
+    contacts, shapes = len(rest.state.owners), len(problem.rover.shapes)
+    rows = np.flatnonzero(rest.multipliers > 0.0)
+    plain = np.where(
+        rows < contacts, rest.state.owners[np.minimum(rows, contacts - 1)], rows - contacts + shapes
+    )
+    active = np.unique(plain).astype(np.int64)
+    landing = land(problem, rest.state.z, terrain, active, loops, window=THOROUGH, reach=0.2)
+    if landing is not None and not stands(problem, landing, landing.sign):
+        found = adapted(problem, rest.state.z, terrain, active, loops, landing)
+        landing, active = (None, active) if found is None else found
+    if landing is None:
+        return None
+    return Footing(landing.z, Status.SETTLED, None, "", active, loops, landing.sign)
 
 
 def footing_of(problem: Problem, rest: Rest, terrain: Terrain, lost: str | None) -> Footing:

@@ -23,6 +23,7 @@ from rover_pin.terrain.surface import CALLABLE, LINEAR
 
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
+    from rover_pin.statics.resistance import Resistance
     from rover_pin.terrain import Terrain
 
 Integers = NDArray[np.int64]
@@ -97,6 +98,7 @@ class Problem:
         self.model: Any = rover.model
         self.data: Any = rover.model.createData()
         self._latest: Kinematics | None = None
+        self.resistance: Resistance | None = None
         self.n = reduction.basis.shape[1]
         self.weight = rover.mass * gravity
         self.span = max(rover.wheel_span, 1e-3)
@@ -141,6 +143,13 @@ class Problem:
     def unit(self) -> Array:
         """(n,) size of each coordinate's motion: the wheels' span for lengths, 1 for angles."""
         return np.where(self.lengths, self.span, 1.0)
+
+    def resisted(self, resistance: Resistance) -> Problem:
+        """The same problem against a motion resistance."""
+        twin = object.__new__(Problem)
+        twin.__dict__.update(self.__dict__)
+        twin.resistance = resistance
+        return twin
 
     def moved(self, x: float, y: float, yaw: float) -> Problem:
         """The same problem with the base held elsewhere; shares everything that does not depend on it."""
@@ -217,6 +226,8 @@ class Problem:
         )  # fmt: skip
         self._other_rows(at, slack[owned:], motion[owned:])
         force[owned:] = motion[owned:]
+        if self.resistance is not None:
+            force[:owned] += self.resistance.ratio * self.resistance.rows(at, owners, contacts) @ basis
         closure, closing = self.loops(at)
         return State(
             z, at.q, at, self.load(at), slack, motion, force, owners, contacts, closure, closing
@@ -232,10 +243,12 @@ class Problem:
             motion[row] = element.slack_gradient(at) @ self.reduction.basis
 
     def load(self, at: Kinematics) -> Array:
-        """(n,) what the supports must carry: gravity minus springs."""
+        """(n,) what the supports must carry: gravity minus springs, and a motion resistance."""
         whole = pin.computeGeneralizedGravity(self.model, self.data, at.q) * (self.gravity / STANDARD)
         for element in self.elastics:
             whole = whole - element.force(at)
+        if self.resistance is not None:
+            whole = whole - self.resistance.drag(at)
         load: Array = whole @ self.reduction.basis
         return load
 
@@ -254,7 +267,7 @@ class Problem:
         """(n, n) derivative of load - force' N - closing' multipliers by z, in closed form.
 
         N and the loops' multipliers are kept; contact points move with z along the terrain. By central
-        differences where a loaded contact lies on a crease, or its shape has no ring.
+        differences where a loaded contact lies on a crease, its shape has no ring, or it pulls the rover on.
 
         Args:
             state: the equations at z.
@@ -284,9 +297,13 @@ class Problem:
         return matrix
 
     def _is_smooth(self, state: State, terrain: Terrain, loaded: Integers) -> bool:
-        """Whether the ground has its own normal at the loaded contacts, and rings lie on it."""
+        """Whether the ground has its own normal at the loaded contacts of rings, and none of them pulls."""
         owners = state.owners[loaded]
-        if terrain.kind == CALLABLE or np.any(self.shapes.forms[owners] != RING):
+        if (
+            self.resistance is not None
+            or terrain.kind == CALLABLE
+            or np.any(self.shapes.forms[owners] != RING)
+        ):
             return False
         if terrain.kind != LINEAR:
             return True

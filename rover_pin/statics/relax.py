@@ -114,7 +114,9 @@ def relax(
         if np.max(travelled) > far:
             return Rest(state, multipliers, pulls, "away", int(np.argmax(travelled)))
         state = problem.state(z, terrain, window)
-    return Rest(state, np.zeros(len(state.slack)), pulls, "lost")
+    if len(multipliers) != len(state.slack):
+        multipliers = np.zeros(len(state.slack))
+    return Rest(state, multipliers, pulls, "lost")
 
 
 def _step(

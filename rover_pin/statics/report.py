@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from rover_pin.mechanism import Kinematics
 from rover_pin.numerics import Array, cross, frozen
 from rover_pin.statics import residuals
-from rover_pin.statics.ground import JUMP, PUSH, Footing, failed, let_go, off_map
+from rover_pin.statics.adapt import JUMP
+from rover_pin.statics.ground import PUSH, Footing, failed, let_go, off_map
 from rover_pin.statics.loads import Loads, share_loads
 from rover_pin.statics.problem import Problem, State
 from rover_pin.statics.relax import UPRIGHT
@@ -213,8 +214,35 @@ def _forces(
         "springs": MappingProxyType({spring.name: spring.effort(at) for spring in rover.springs}),
         "stops": MappingProxyType(stops),
         "tensions": MappingProxyType(tensions),
+        **_pulling(problem, at, contacts, tensions),
         "redundant": loads.redundant,
         "residuals": MappingProxyType(_residuals(problem, state, loads, contacts, terrain, gaps)),
+    }
+
+
+def _pulling(
+    problem: Problem, at: Kinematics, contacts: tuple[Contact, ...], tensions: dict[str, float]
+) -> dict[str, Any]:
+    """What contacts pull with, and the tight strands' tensions."""
+    resistance, rover = problem.resistance, problem.rover
+    tractions = {shape.name: 0.0 for shape in rover.shapes}
+    if resistance is None:
+        return {"tight": MappingProxyType(dict(tensions)), "tractions": MappingProxyType(tractions)}
+    place = {shape.name: i for i, shape in enumerate(rover.shapes)}
+    owners = np.array([place[contact.wheel] for contact in contacts], dtype=np.int64)
+    normals = np.array([contact.normal for contact in contacts])
+    for contact, tangent in zip(contacts, resistance.tangents(at, owners, normals), strict=True):
+        if tangent.any():
+            tractions[contact.wheel] += resistance.sense * resistance.ratio * contact.load
+    tight = {
+        track.name: tensions[track.name] + abs(sum(tractions.get(c.name, 0.0) for c in track.circles))
+        for track in rover.tracks
+    }
+    return {
+        "tight": MappingProxyType(tight),
+        "tractions": MappingProxyType(tractions),
+        "traction_ratio": resistance.sense * resistance.ratio,
+        "resistance": resistance.force,
     }
 
 
@@ -250,7 +278,13 @@ def _residuals(
     weight = problem.weight
     return {
         "equilibrium": residuals.equilibrium(
-            rover, at, problem.reduction.basis, contacts, internal, problem.gravity
+            rover,
+            at,
+            problem.reduction.basis,
+            contacts,
+            internal,
+            problem.gravity,
+            problem.resistance,
         ),
         "gap_m": residuals.gap(rover, at, terrain, contacts),
         "loop_m": residuals.closure(rover, at),

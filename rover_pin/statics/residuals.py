@@ -16,6 +16,7 @@ import pinocchio as pin
 from rover_pin.contact.place import SEGMENT
 from rover_pin.mechanism import Bilateral, Kinematics
 from rover_pin.numerics import Array, cross
+from rover_pin.statics.resistance import Resistance, pulled_at, tight_spans
 from rover_pin.statics.stance import Contact
 from rover_pin.terrain.surface import LINEAR
 
@@ -38,6 +39,7 @@ def equilibrium(
     contacts: Sequence[Contact],
     internal: Array,
     gravity: float,
+    resistance: Resistance | None = None,
 ) -> float:
     """Largest unbalanced generalised force: forces over weight, moments over weight times the wheels' span.
 
@@ -48,6 +50,7 @@ def equilibrium(
         contacts: with their loads.
         internal: (nv,) generalised force of stops, tracks and loops.
         gravity: m/s2.
+        resistance: that contacts pull against, or None.
     """
     model: Any = rover.model
     data, q = at.data, at.q
@@ -60,10 +63,47 @@ def equilibrium(
         total = total + contact.load * jacobian[2]
     for spring in rover.springs:
         total = total + spring.force(at)
+    if resistance is not None:
+        total = total + _pulling(rover, at, contacts, resistance)
     unbalanced = free.T @ total
     turns = np.array(rover.turning)[np.argmax(np.abs(free), axis=0)]
     scale = weight * np.where(turns, max(rover.wheel_span, 1e-3), 1.0)
     return float(np.max(np.abs(unbalanced) / scale, initial=0.0))
+
+
+def _pulling(rover: Rover, at: Kinematics, contacts: Sequence[Contact], resistance: Resistance) -> Array:
+    """(nv,) of the resistance, the tractions and what they add to the tracks' tensions, on q itself."""
+    model: Any = rover.model
+    total: Array = -resistance.force * (resistance.heading @ pin.jacobianCenterOfMass(model, at.data, at.q))
+    tracked = {circle.name for track in rover.tracks for circle in track.circles}
+    place = {shape.name: i for i, shape in enumerate(rover.shapes)}
+    pull = resistance.sense * resistance.ratio
+    for contact in contacts:
+        owner = np.array([place[contact.wheel]])
+        tangent = resistance.tangents(at, owner, contact.normal[None])[0]
+        force = pull * contact.load * tangent
+        spot = contact.point
+        if contact.wheel in tracked:  # a roller's centre gets what the cable leaves
+            spot = at.point(contact.joint, rover.shapes[place[contact.wheel]].center)
+        total = total + force @ at.point_jacobian(contact.joint, spot)
+    for track in rover.tracks:
+        wrap = track.wrap(at)
+        driven = resistance.driven(track)
+        for contact in contacts:
+            names = [circle.name for circle in track.circles]
+            if contact.wheel not in names:
+                continue
+            tangent = resistance.tangents(at, np.array([place[contact.wheel]]), contact.normal[None])[0]
+            spans = tight_spans(
+                wrap, names.index(contact.wheel), driven, resistance.sense * tangent, contact.normal
+            )
+            for span in spans:
+                for end, sign in ((span.leaves, 1.0), (span.meets, -1.0)):
+                    spot = pulled_at(wrap, end, driven, span)
+                    jacobian = at.point_jacobian(track.circles[end].joint, spot)
+                    pull_here = sign * resistance.ratio * contact.load
+                    total = total + pull_here * (span.direction @ jacobian)
+    return total
 
 
 def gap(rover: Rover, at: Kinematics, terrain: Terrain, contacts: Sequence[Contact]) -> float:

@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING
 from rover_pin.errors import InputError, OffMapError
 from rover_pin.statics.asked import held_values
 from rover_pin.statics.follow import follow, straight
-from rover_pin.statics.ground import failed, off_map
+from rover_pin.statics.ground import Footing, failed, off_map
 from rover_pin.statics.level import on_level
+from rover_pin.statics.problem import Problem
 from rover_pin.statics.report import report
+from rover_pin.statics.resisted import against
 from rover_pin.statics.stance import Stance, Status
 from rover_pin.statics.verdict import wheel_off_map
 from rover_pin.terrain import Terrain
@@ -31,6 +33,7 @@ def settle(
     joints: Mapping[str, float] | None = None,
     locks: Iterable[str] = (),
     gravity: float = 9.81,
+    resistance: float = 0.0,
 ) -> Stance:
     """How `rover` comes to rest when it is lowered at a place of `terrain`.
 
@@ -50,6 +53,8 @@ def settle(
         joints: further joint values; a passive joint given here is locked there.
         locks: passive joints, from the rover's `lockable`, to hold at the posture.
         gravity: m/s2.
+        resistance: N, at the centre of mass against the heading, overcome by the same share of its load at
+            every contact, in tracks by their tensions (`rover_pin.statics.resistance`).
 
     Returns:
         The stance; its `status` says whether it is `settled`. Only then it has loads.
@@ -60,6 +65,8 @@ def settle(
         OffMapError: x, y is not on the map.
     """
     _check(rover, terrain, x, y, yaw, gravity)
+    if not math.isfinite(resistance):
+        raise InputError("must be a finite number", element="resistance", value=resistance)
     values, locked = held_values(rover, posture, dict(joints or {}), tuple(locks), gravity)
     problem, footing = on_level(rover, values, locked, gravity)
     problem = problem.moved(x, y, yaw)
@@ -71,15 +78,25 @@ def settle(
         return report(problem, failed(z, footing.status, footing.limiting, reason), terrain, locked)
     found = straight(problem, footing, z, terrain)
     if found is not None:
-        stance = report(problem, found, terrain, locked)
+        stance = report(*_resisted(problem, found, terrain, resistance), terrain, locked)
         if stance.status not in (Status.NO_CONVERGENCE, Status.TIPS):
             return stance
-    stance = report(problem, follow(problem, footing, z, terrain, level), terrain, locked)
+    found = follow(problem, footing, z, terrain, level)
+    stance = report(*_resisted(problem, found, terrain, resistance), terrain, locked)
     if stance.status in (Status.TIPS, Status.NO_CONVERGENCE):
         beyond = wheel_off_map(problem, problem.locate(z), terrain)
         if beyond is not None:  # what it fell over is not on the map
             return report(problem, off_map(z, beyond), terrain, locked)
     return stance
+
+
+def _resisted(
+    problem: Problem, footing: Footing, terrain: Terrain, resistance: float
+) -> tuple[Problem, Footing]:
+    """The footing against a resistance, where there is one."""
+    if resistance == 0.0 or footing.status is not Status.SETTLED:
+        return problem, footing
+    return against(problem, footing, terrain, resistance)
 
 
 def _check(rover: Rover, terrain: Terrain, x: float, y: float, yaw: float, gravity: float) -> None:

@@ -82,7 +82,11 @@ class Stance:
         contacts: the places that touch, several a wheel where there are several.
         loads: per wheel or foot, the sum of its contacts' loads.
         gaps: per wheel or foot, its least gap.
-        tensions: per track, N.
+        tensions: per track, N; its slack strand's where a resistance is overcome.
+        tight: per track, N, tension of the tight strand at the driven wheel.
+        tractions: per wheel or foot, N: what it pulls with against a motion resistance.
+        traction_ratio: tangential over vertical force of every contact that pulls; 0 without resistance.
+        resistance: N, against the heading.
         springs: per spring, its force (N) or torque (N m).
         stops: per joint or spring that stands on a stop, the stop's force (N) or torque (N m).
         com: (3,) centre of mass with payload.
@@ -109,6 +113,10 @@ class Stance:
     gravity: float
     configuration: Array = field(repr=False)
     tensions: Mapping[str, float] = field(default_factory=_empty)
+    tight: Mapping[str, float] = field(default_factory=_empty)
+    tractions: Mapping[str, float] = field(default_factory=_empty)
+    traction_ratio: float = 0.0
+    resistance: float = 0.0
     springs: Mapping[str, float] = field(default_factory=_empty)
     stops: Mapping[str, float] = field(default_factory=_empty)
     locked: tuple[str, ...] = ()
