@@ -111,7 +111,8 @@ def test_a_step_under_the_rear_wheel_is_a_step_seen_backwards(half):
     [
         {"mass": 40.0}, {"mass": 65.0}, {"mass": 88.1}, {"track_length": 2023.0}, {"track_length": 2030.0},
         {"track_length": 2020.0}, {"d11": 196.5}, {"d11": 199.5}, {"stiffness": 20.0},
-        {"com": (-20.0, -60.0)}, {"preload": (0.0, 50.0, 0.0)}, {"terrain": (20, 0, 0, 0)}, {"terrain": (0, 30, 0, 0)},
+        {"com": (-20.0, -60.0)}, {"preload": (0.0, 50.0, 0.0)},
+        {"terrain": (20, 0, 0, 0)}, {"terrain": (0, 30, 0, 0)},
         {"terrain": (0, 0, 30, 0)}, {"terrain": (0, 0, 0, 40)}, {"terrain": (40, 10, 0, 20)},
     ],
     ids=str,
