@@ -84,9 +84,7 @@ def search(study: Study, progress: Callable[[int, int], None] | None = None) -> 
     fixed = {n: q.ends[0] for n, q in job.cases.questions.parameters.items() if n not in asked}
     trials = Trials(spec, job, _places(job, study.spec.cases))
     check_figures(spec, trials.known)
-    sampler = optuna.samplers.TPESampler(
-        seed=spec.seed, multivariate=True, constraints_func=lambda trial: trial.user_attrs["violations"]
-    )
+    sampler = optuna.samplers.TPESampler(seed=spec.seed, multivariate=True)
     direction = "minimize" if spec.minimise else "maximize"
     tried = optuna.create_study(direction=direction, sampler=sampler)
     tried.enqueue_trial({name: _within(asked[name], job.rover.parameters[name]) for name in asked})
@@ -94,7 +92,8 @@ def search(study: Study, progress: Callable[[int, int], None] | None = None) -> 
     for k in range(spec.trials):
         trial = tried.ask(kinds)
         told, violations = trials.tell({**fixed, **{name: float(trial.params[name]) for name in asked}})
-        trial.set_user_attr("violations", violations)
+        for name, excess in zip((*spec.subject_to, "settled"), violations, strict=True):
+            trial.set_constraint(name, excess)
         tried.tell(trial, told)
         if progress is not None:
             progress(k + 1, spec.trials)

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rover_pin.cli.options import Json
-from rover_pin.errors import InputError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -17,6 +16,8 @@ if TYPE_CHECKING:
     from rover_pin.analysis.study import Study
 
 INTERRUPTED = 130
+DRAWN = 50
+"""Designs at most that a page draws each in its own shape."""
 
 
 def study(
@@ -46,10 +47,6 @@ def study(
     path = out or Path(f"{spec.stem if spec else 'study'}.nc")
     check_outputs(path, html)
     asked = Study.default() if spec is None else Study.from_file(spec)
-    if html is not None and not asked.plan.job.layout.margins:
-        raise InputError(
-            "a page needs a measure", element="--html", cure="ask for tip, say, in the study's measures"
-        )
     started = time.perf_counter()
     try:
         announce_compilation(batch=True)
@@ -84,9 +81,10 @@ def study(
 
 
 def _save_page(asked: Study, data: xr.Dataset, html: Path) -> None:
-    """The study's page, its worst cases settled once more for their contacts."""
+    """The study's page, its worst cases (each design of a small sweep) settled once more for their contacts."""
     from rover_pin import viz
 
-    stances = {case: asked.stance(case) for case in viz.worst_cases(data)}
+    shown = range(len(asked)) if len(asked) <= DRAWN and asked.plan.job.cases.questions.parameters else ()
+    stances = {case: asked.stance(case) for case in shown or viz.worst_cases(data)}
     ready = asked.plan
     viz.save_study_page(data, html, rover=ready.rover, terrain=ready.job.terrain, stances=stances)
