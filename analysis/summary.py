@@ -75,6 +75,35 @@ def spread(data: xr.Dataset, measure: str, count: int = 10) -> Spread:
     )
 
 
+def figure_spreads(data: xr.Dataset) -> dict[str, tuple[str, dict[int, float]]]:
+    """Unit and percentiles over the settled cases of how the rover stands and carries; tensions by track."""
+    tracks = [str(name) for name in data["track"].values] if "tension_n" in data else []
+    apart = {f"tension_n/{name}": data["tension_n"].isel(track=k, drop=True) for k, name in enumerate(tracks)}
+    names = [name for name in ("pitch_rad", "roll_rad", "touching", "load_spread") if name in data]
+    columns = xr_dataset({**{name: data[name] for name in names}, **apart})
+    settled = statuses(data).get("settled", 0)
+    return {
+        str(name): (
+            str(column.attrs.get("units", "")),
+            _percentiles(columns, str(name), _there(columns, name)),
+        )
+        for name, column in columns.data_vars.items()
+        if settled
+    }
+
+
+def _there(data: xr.Dataset, name: Hashable) -> int:
+    """How many cases have a number."""
+    return sum(len(block) for block in _answers(data, str(name)))
+
+
+def xr_dataset(columns: dict[str, xr.DataArray]) -> xr.Dataset:
+    """A Dataset of some columns; xarray is loaded where it is used."""
+    import xarray as xr
+
+    return xr.Dataset(columns)
+
+
 def largest_residuals(data: xr.Dataset) -> dict[Hashable, float]:
     """The largest of each residual over the settled cases; NaN where none settled."""
     names = ("equilibrium", "gap_m", "loop_m", "complementarity")

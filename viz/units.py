@@ -32,7 +32,19 @@ TITLES = {
     "load_spread": "Load spread",
 }
 
-FIRST = ("tip", "polygon", "force_angle", "energy", "zmp", "friction", "torque", "clearance", "loads", "load_spread", "touching")
+FIRST = (
+    "tip",
+    "polygon",
+    "force_angle",
+    "energy",
+    "zmp",
+    "friction",
+    "torque",
+    "clearance",
+    "loads",
+    "load_spread",
+    "touching",
+)
 
 
 def ranked(measures: Iterable[str]) -> list[str]:

@@ -42,6 +42,7 @@ def study(
     from rover_pin.analysis.summary import statuses
     from rover_pin.cli.output import announce_compilation, aside, check_outputs, print_json
     from rover_pin.cli.progress import progress_bar
+    from rover_pin.cli.sensitivity_report import print_slopes, slopes_object
     from rover_pin.cli.study_report import print_study, study_object
 
     path = out or Path(f"{spec.stem if spec else 'study'}.nc")
@@ -67,24 +68,37 @@ def study(
             aside("interrupted before anything was finished")
         return INTERRUPTED
     seconds = time.perf_counter() - started
-    if html is not None:
-        _save_page(asked, data, html)
     ended = statuses(data)
+    slopes = _slopes(asked, data)
+    if html is not None:
+        _save_page(asked, data, slopes, html)
     if json:
-        print_json(study_object(data, ended, path, html, seconds))
+        print_json({**study_object(data, ended, path, html, seconds), **slopes_object(slopes)})
     else:
         print_study(data, ended, seconds)
+        print_slopes(slopes)
     for written in (path, html):
         if written is not None:
             aside(f"wrote {written}")
     return 0 if ended.get("settled") else 1
 
 
-def _save_page(asked: Study, data: xr.Dataset, html: Path) -> None:
-    """The study's page, its worst cases (each design of a small sweep) settled once more for their contacts."""
+def _slopes(asked: Study, data: xr.Dataset) -> xr.Dataset | None:
+    """The sensitivities, where the study takes them and its nominal design settles."""
+    from rover_pin.analysis.sensitivity import sensitivity
+
+    wanted = asked.spec.cases.sampler == "sensitivity" and str(data["status"].values[0]) == "settled"
+    return sensitivity(data) if wanted else None
+
+
+def _save_page(asked: Study, data: xr.Dataset, slopes: xr.Dataset | None, html: Path) -> None:
+    """The study's page; its worst cases, or each design of a small sweep, settled anew for their contacts."""
     from rover_pin import viz
 
-    shown = range(len(asked)) if len(asked) <= DRAWN and asked.plan.job.cases.questions.parameters else ()
-    stances = {case: asked.stance(case) for case in shown or viz.worst_cases(data)}
+    if slopes is not None:
+        viz.save_sensitivity_page(slopes, html)
+        return
+    each = len(asked) <= DRAWN and asked.plan.job.cases.questions.parameters
+    stances = {case: asked.stance(case) for case in (range(len(asked)) if each else viz.worst_cases(data))}
     ready = asked.plan
     viz.save_study_page(data, html, rover=ready.rover, terrain=ready.job.terrain, stances=stances)

@@ -53,7 +53,9 @@ def _unit(dataset: xr.Dataset, name: str) -> tuple[str, float]:
 def _charts(dataset: xr.Dataset) -> list[dict[str, Any]]:
     """Attitude, how the wheels carry, tensions, loads, measures; a chart has a line or several."""
     charts = [_chart(dataset, name, title) for name, title in FIXED if _moves(dataset, name)]
-    charts += [_chart(dataset, name, title_of(name)) for name in ("touching", "load_spread") if name in dataset]
+    charts += [
+        _chart(dataset, name, title_of(name)) for name in ("touching", "load_spread") if name in dataset
+    ]
     for name, title, dim in (("tension_n", "Track tension", "track"), ("load_n", "Wheel loads", "wheel")):
         if name in dataset:
             labels = [str(each) for each in dataset[dim].values]
