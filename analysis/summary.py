@@ -80,24 +80,19 @@ def figure_spreads(data: xr.Dataset) -> dict[str, tuple[str, dict[int, float]]]:
     tracks = [str(name) for name in data["track"].values] if "tension_n" in data else []
     apart = {f"tension_n/{name}": data["tension_n"].isel(track=k, drop=True) for k, name in enumerate(tracks)}
     names = [name for name in ("pitch_rad", "roll_rad", "touching", "load_spread") if name in data]
-    columns = xr_dataset({**{name: data[name] for name in names}, **apart})
-    settled = statuses(data).get("settled", 0)
+    columns = _columns({**{name: data[name] for name in names}, **apart})
+    if not statuses(data).get("settled", 0):
+        return {}
     return {
-        str(name): (
-            str(column.attrs.get("units", "")),
-            _percentiles(columns, str(name), _there(columns, name)),
-        )
-        for name, column in columns.data_vars.items()
-        if settled
+        name: (str(columns[name].attrs.get("units", "")), _shares(columns, name)) for name in (*names, *apart)
     }
 
 
-def _there(data: xr.Dataset, name: Hashable) -> int:
-    """How many cases have a number."""
-    return sum(len(block) for block in _answers(data, str(name)))
+def _shares(data: xr.Dataset, name: str) -> dict[int, float]:
+    return _percentiles(data, name, sum(len(block) for block in _answers(data, name)))
 
 
-def xr_dataset(columns: dict[str, xr.DataArray]) -> xr.Dataset:
+def _columns(columns: dict[str, xr.DataArray]) -> xr.Dataset:
     """A Dataset of some columns; xarray is loaded where it is used."""
     import xarray as xr
 

@@ -35,9 +35,7 @@ def print_slopes(slopes: xr.Dataset | None) -> None:
     """The strongest parameters of each figure."""
     if slopes is None:
         return
-    table = new_table(
-        "sensitivities", "figure", "parameter", "nominal", "slope", "a per cent", "kink", left=2
-    )
+    table = new_table("sensitivities", "figure", "parameter", "nominal", "slope", "for +1 %", "kink", left=2)
     for i, name in enumerate(slopes.figure.values):
         strength = np.nan_to_num(np.abs(slopes.per_percent.values[i]))
         unit = str(slopes.figure_unit.values[i]).replace("-", "1")

@@ -46,7 +46,7 @@ def sensitivity_page(slopes: xr.Dataset) -> str:
     quiet = [name for name, made in zip(slopes.figure.values, cards, strict=True) if not made]
     note = (
         "Bars: change of the figure for 1 % more of the parameter (1 % of its bounds' width where it is 0), "
-        "blue up, orange down. Beside them the derivative, a unit of the parameter. Hatched: the slopes over two "
+        "blue up, orange down. Beside them the derivative. Hatched: the slopes over two "
         "steps or to the two sides differ by more than a tenth, so that it holds for small changes at most."
     )
     rest = f"<p>Nothing moves {html.escape(', '.join(map(titled, quiet)))}.</p>" if quiet else ""
@@ -76,9 +76,8 @@ def _tornado(slopes: xr.Dataset) -> str:
     most = abs(changes[kept[0]])
     cells = ['<span class="head"></span><span class="head"></span>']
     unit_word = "" if unit == "–" else f" {unit}"
-    cells += [
-        f'<span class="head number">a per cent{unit_word}</span><span class="head number">derivative</span>'
-    ]
+    told = f"for +1 %{f' [{unit}]' if unit_word else ''}"
+    cells += [f'<span class="head number">{told}</span><span class="head number">derivative</span>']
     for parameter in kept[:MOST]:
         each = slopes.sel(parameter=parameter)
         cells += _bar(parameter, changes[parameter], most, each, factor)
@@ -88,7 +87,7 @@ def _tornado(slopes: xr.Dataset) -> str:
 
 
 def _change(each: xr.Dataset) -> float:
-    """The figure's change for a hundredth of a parameter, or for its step where it is 0 and has no hundredth."""
+    """The figure's change for a hundredth of a parameter; for its step where that is 0."""
     change = float(each.per_percent)
     change = float(each.slope * 2.0 * each.step) if math.isnan(change) else change
     return change if math.isfinite(change) else 0.0
