@@ -8,6 +8,7 @@ from rover_pin.cli.bench import bench
 from rover_pin.cli.info import info
 from rover_pin.cli.mobility import mobility
 from rover_pin.cli.robots import robots
+from rover_pin.cli.search import search
 from rover_pin.cli.settle import settle
 from rover_pin.cli.study import study
 from rover_pin.cli.view import view
@@ -19,5 +20,5 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
-for command in (robots, info, settle, study, view, mobility, bench):
+for command in (robots, info, settle, study, search, view, mobility, bench):
     app.command()(command)
