@@ -195,6 +195,19 @@ class FrameSpring:
         """(nv,) generalised force."""
         return self.effort(at) * self.length_gradient(at)
 
+    @property
+    def kind(self) -> str:
+        """`springs`."""
+        return "springs"
+
+    @property
+    def impossible(self) -> tuple[str, str]:
+        """Longer than its stop, wherever the joints go."""
+        return (
+            "the spring is longer than its length_max wherever the joints go",
+            "give a greater length_max, or move its frames",
+        )
+
     def slack(self, at: Kinematics) -> float:
         """length_max - length [m]."""
         return self.length_max - self.length(at)

@@ -200,6 +200,19 @@ class Track:
         length = taut(centers @ plane[:, :2], rho, following, spans, turns)
         return Wrap(length, centers, plane, rho, following, spans, turns)
 
+    @property
+    def kind(self) -> str:
+        """`tracks`."""
+        return "tracks"
+
+    @property
+    def impossible(self) -> tuple[str, str]:
+        """Shorter than its wrap, wherever the joints go."""
+        return (
+            "the track is shorter than its way around its wheels wherever the joints go",
+            "give a longer track, or smaller or nearer wheels",
+        )
+
     def slack(self, at: Kinematics) -> float:
         """Length less the shortest way around [m]; NaN where circles overlap so that there is none."""
         return self.length - self.wrap(at).length
