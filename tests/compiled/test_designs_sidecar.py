@@ -89,7 +89,7 @@ def agree(rover, values, terrain, x, y, yaw):
         assert stance.status == "settled"
         loads = [stance.loads[name] for name in answers.wheels]
         np.testing.assert_allclose(answers.load_n[i], loads, atol=1e-5)
-        np.testing.assert_allclose(answers.z_m[i], stance.base.position[2], atol=1e-8)
+        np.testing.assert_allclose(answers.z_m[i], stance.position[2], atol=1e-8)
         np.testing.assert_allclose(answers.joint_rad[i], list(stance.joints.values()), atol=1e-8)
         if stance.tensions:
             np.testing.assert_allclose(answers.tension_n[i], list(stance.tensions.values()), atol=1e-5)
