@@ -193,7 +193,7 @@ class Track:
     def _wrap(self, at: Kinematics) -> Wrap:
         count = len(self.circles)
         rotations, origins = (found[self._carriers] for found in at.placements)
-        centers = np.einsum("kij,kj->ki", rotations, self._places) + origins
+        centers = (rotations @ self._places[:, :, None])[:, :, 0] + origins
         plane = at.rotation(self.joint) @ self.axes
         rho = self._rho
         following, spans, turns = np.empty(count, dtype=np.int64), np.zeros((count, 3)), np.zeros(count)
