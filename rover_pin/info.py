@@ -41,6 +41,7 @@ def info(rover: Rover) -> dict[str, Any]:
                 "tread_m": w.tread,
                 "friction": w.friction,
                 "free": w.free,
+                "auxiliary": w.auxiliary,
             }
             for w in rover.wheels
         },

@@ -117,6 +117,12 @@ class Rover:
         return (*self.wheels, *self.feet)
 
     @cached_property
+    def bearing(self) -> tuple[int, ...]:
+        """Which of `shapes` should carry: all but auxiliary wheels."""
+        idle = {i for i, wheel in enumerate(self.wheels) if wheel.auxiliary}
+        return tuple(i for i in range(len(self.shapes)) if i not in idle)
+
+    @cached_property
     def one_sided(self) -> tuple[OneSided, ...]:
         """Elements that bind one way: frame springs by their stops, then tracks."""
         return (*(spring for spring in self.springs if isinstance(spring, FrameSpring)), *self.tracks)

@@ -43,6 +43,7 @@ class Answers:
         value: (n,) per measure asked; -inf where it fails closed.
         wheels: names of wheels, then feet.
         tracks: names of tracks.
+        bearing: which of them should carry (`Rover.bearing`).
         links: the link of each point of the underside.
         belly: names of the belly's points.
     """
@@ -64,6 +65,7 @@ class Answers:
     value: dict[str, Array]
     wheels: tuple[str, ...]
     tracks: tuple[str, ...]
+    bearing: tuple[int, ...]
     links: tuple[str, ...]
     belly: tuple[str, ...]
     _out: Out = field(repr=False)
@@ -89,7 +91,8 @@ class Answers:
             edge, and (n,) the index of the limiting name, -1 where there is none.
         """
         if measure == "loads":
-            return _ranked(self.wheels, shares(self.load_n), self.settled)
+            names = [self.wheels[k] for k in self.bearing]
+            return _ranked(names, shares(self.load_n[:, self.bearing]), self.settled)
         if measure == "clearance":
             return _ranked(self.belly, np.where(self.settled[:, None], self._out.belly, np.nan), self.settled)
         return self._on_polygon(ON_EDGES.index(measure))
@@ -199,7 +202,7 @@ def answers_of(
             found = np.take_along_axis(out.edges[:, m], np.maximum(limiting, 0)[:, None], axis=1)[:, 0]
             value[name] = np.where(limiting >= 0, found, -np.inf) + keep
         elif name == "loads":
-            value[name] = np.min(shares(loads), axis=1)
+            value[name] = np.min(shares(loads[:, rover.bearing]), axis=1)
         else:
             value[name] = np.min(out.belly, axis=1, initial=np.inf) + keep
     return Answers(
@@ -220,6 +223,7 @@ def answers_of(
         value=value,
         wheels=tuple(shape.name for shape in rover.shapes),
         tracks=tuple(track.name for track in rover.tracks),
+        bearing=rover.bearing,
         links=links,
         belly=tuple(_numbered(point.link, seen) for point in rover.belly),
         _out=out,

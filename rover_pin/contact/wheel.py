@@ -29,6 +29,7 @@ class Wheel:
         friction: Coulomb's coefficient.
         free: whether it turns freely and so carries no rolling force.
         drive: name of the wheel's own turning joint, or None.
+        auxiliary: whether it is none of the wheels that should carry.
     """
 
     name: str
@@ -42,6 +43,7 @@ class Wheel:
     friction: float = 0.6
     free: bool = False
     drive: str | None = None
+    auxiliary: bool = False
 
     def __post_init__(self) -> None:
         """Check and freeze.

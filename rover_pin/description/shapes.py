@@ -176,6 +176,7 @@ class Placer:
                 friction=spec.friction,
                 free=spec.free,
                 drive=drive,
+                auxiliary=spec.auxiliary,
                 **tread,
             )
         except InputError as error:

@@ -70,6 +70,8 @@ class WheelSpec(Spec):
         tread: radius of the rounding of the rim, m; the lesser of half the width and the radius where silent.
         friction: Coulomb's coefficient.
         free: whether it turns freely and so carries no rolling force.
+        auxiliary: whether it touches only where the ground rises to it (a sprocket, an idler, a tail wheel),
+            so that how evenly loads are shared does not count it.
     """
 
     frame: str
@@ -81,6 +83,7 @@ class WheelSpec(Spec):
     tread: NotNegative | None = None
     friction: NotNegative = 0.6
     free: bool = False
+    auxiliary: bool = False
 
 
 class FootSpec(Spec):

@@ -152,3 +152,12 @@ def test_locks_gravity_and_payload_as_on_the_plain_path():
         if stance.settled:
             check_pose(answers, i, stance, rover)
             assert np.sum(answers.load_n[i]) == pytest.approx(rover.mass * 3.71, rel=1e-9)
+
+
+def test_auxiliary_wheels_as_on_the_plain_path(tmp_path):
+    folder = FIXTURES / "bogie_min"
+    sidecar = tmp_path / "rover.yaml"
+    sidecar.write_text((folder / "rover.yaml").read_text().replace("free: true", "auxiliary: true"))
+    rover = rp.load(next(folder.glob("*.urdf")), sidecar=sidecar)
+    assert rover.bearing == (1, 2, 3, 4)
+    compare(rover, GROUNDS["moderate"], 12)

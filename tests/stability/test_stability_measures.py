@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from rover_pin.stability.measure import Standing
 from rover_pin.stability.registry import MEASURES
-from rover_pin.stability.report import stability
+from rover_pin.stability.report import inapplicable, stability
 
 CORNERS = np.array([[1.0, 0.5, 0.0], [1.0, -0.5, 0.0], [-1.0, 0.5, 0.0], [-1.0, -0.5, 0.0]])
 FOUR = ("fl", "fr", "rl", "rr")
@@ -131,6 +131,22 @@ def test_loads_by_hand():
     assert margin.details == pytest.approx(
         {"range_n": 300.0, "max_over_mean": 2.0, "std_over_mean": np.std(loads) / 150.0, "mean_n": 150.0}
     )
+
+
+def test_loads_count_no_auxiliary_wheel():
+    contacts = contacts_at(CORNERS, wheels=FOUR, loads=[100.0, 200.0, 300.0, 0.0])
+    margin = stability(stance_of(contacts, (0, 0, 0.3), auxiliary=["rr"]), "loads")["loads"]
+    assert margin.limiting == "fl"
+    assert margin.edges == pytest.approx({"fl": 0.5, "fr": 1.0, "rl": 1.5})
+    assert margin.details["mean_n"] == pytest.approx(200.0)
+    assert margin.details["std_over_mean"] == pytest.approx(np.std([1.0, 2.0, 3.0]) / 2.0)
+
+
+def test_where_every_wheel_is_auxiliary_there_is_no_such_measure():
+    stance = stance_of(contacts_at(CORNERS, wheels=FOUR, loads=np.ones(4)), (0, 0, 0.3), auxiliary=FOUR)
+    assert inapplicable(stance.rover, ["loads"]) == {
+        "loads": "every wheel of hand_made is auxiliary: none should carry"
+    }
 
 
 FEW = {

@@ -124,6 +124,7 @@ def stance_of(
     status: Status = Status.SETTLED,
     reason: str = "",
     belly: Any = (),
+    auxiliary: Sequence[str] = (),
 ) -> Stance:
     """A stance with these contacts."""
     loads: dict[str, float] = {}
@@ -131,11 +132,17 @@ def stance_of(
         loads[c.wheel] = loads.get(c.wheel, 0.0) + c.load
     wheels = tuple(
         SimpleNamespace(
-            name=name, drive=f"drive_{name}", free=any(c.free for c in contacts if c.wheel == name)
+            name=name,
+            drive=f"drive_{name}",
+            free=any(c.free for c in contacts if c.wheel == name),
+            auxiliary=name in auxiliary,
         )
         for name in loads
     )
-    rover: Any = SimpleNamespace(name="hand_made", mass=weight / 9.81, wheels=wheels, belly=belly)
+    bearing = tuple(i for i, wheel in enumerate(wheels) if not wheel.auxiliary)
+    rover: Any = SimpleNamespace(
+        name="hand_made", mass=weight / 9.81, wheels=wheels, bearing=bearing, belly=belly
+    )
     terrain: Any = SimpleNamespace(label="nowhere")
     return Stance(
         rover=rover,
