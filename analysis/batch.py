@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rover_pin.analysis.cases import Cases
-from rover_pin.analysis.rows import EDGES, PLAIN, POSE, RESIDUALS, Columns, Layout, coded
+from rover_pin.analysis.rows import EDGES, PLAIN, POSE, RESIDUALS, TENSION, Columns, Layout, coded
 from rover_pin.analysis.vocabulary import Words, tight
 from rover_pin.analysis.words import posture
 from rover_pin.statics.stance import Status
@@ -93,6 +93,8 @@ def as_columns(answers: Answers, layout: Layout) -> Columns:
     for name in layout.margins:
         out[name] = answers.value[name]
     out |= {"load_n": answers.load_n, "joint_rad": answers.joint_rad}
+    if layout.tracks:
+        out[TENSION] = answers.tension_n
     for name in layout.margins:
         names, table, limiting = answers.labelled(name)
         out |= coded(f"{name}_limiting", Words.picked(limiting + 1, ["", *names]))

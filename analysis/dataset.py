@@ -51,6 +51,7 @@ def attributes(study: Study, found: Found) -> dict[str, Any]:
         "robot": study.spec.robot,
         "terrain": ready.job.terrain.label,
         "terrain_digest": ready.job.terrain.digest,
+        "sampler": study.spec.cases.sampler,
         "seed": study.spec.cases.seed,
         "study": study.text,
         "study_file": "" if study.file is None else str(study.file),

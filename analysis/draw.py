@@ -4,24 +4,16 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
 from rover_pin.analysis.cases import POSTURE, Cases, Questions
 from rover_pin.analysis.grid import Grid
+from rover_pin.analysis.one_by_one import OneByOne
 from rover_pin.analysis.sobol import Sobol
 from rover_pin.analysis.spec import CasesSpec
 from rover_pin.errors import StudyError
-from rover_pin.numerics import Array, frozen
-
-
-class Sampler(Protocol):
-    """What a sampler is: columns of numbers for any run of cases."""
-
-    def columns(self, start: int, stop: int) -> dict[str, Array]:
-        """Every quantity of the cases from `start` to before `stop`."""
-        ...
+from rover_pin.numerics import frozen
 
 
 @dataclass(frozen=True)
@@ -51,12 +43,9 @@ class Drawer:
     """Draws runs of cases; quickest forwards, where only the gap is skipped."""
 
     def __init__(self, source: Draw) -> None:
-        columns = source.questions.columns
         self._questions = source.questions
         self._count = source.count
-        self._sampler: Sampler = (
-            Grid(columns, source.spec) if source.spec.sampler == "grid" else Sobol(columns, source.spec.seed)
-        )
+        self._sampler = _sampler(source.questions, source.spec)
 
     def run(self, start: int, stop: int) -> Cases:
         """The cases from `start` to before `stop`.
@@ -87,5 +76,15 @@ def draw(questions: Questions, spec: CasesSpec) -> Draw:
     Raises:
         StudyError: a grid without its counts, a count of what does not vary, or too many cases.
     """
-    count = Grid(questions.columns, spec).count if spec.sampler == "grid" else spec.number
-    return Draw(questions, spec, count)
+    sampler = _sampler(questions, spec)
+    return Draw(questions, spec, spec.number if isinstance(sampler, Sobol) else sampler.count)
+
+
+def _sampler(questions: Questions, spec: CasesSpec) -> Sobol | Grid | OneByOne:
+    """The sampler that the study names."""
+    columns = questions.columns
+    if spec.sampler == "grid":
+        return Grid(columns, spec)
+    if spec.sampler == "sensitivity":
+        return OneByOne(columns, questions.parameters)
+    return Sobol(columns, spec.seed)

@@ -15,6 +15,8 @@ from rover_pin.errors import StudyError, nearest
 from rover_pin.numerics import Array
 
 CIRCLE_DEG = 360.0
+EACH = {0: 1, 1: 41, 2: 21}
+"""Ticks of each range where the study does not say, by the number of ranges: enough for a line or a map."""
 
 
 @dataclass(frozen=True)
@@ -75,6 +77,8 @@ def _counts(columns: Mapping[str, Quantity], spec: CasesSpec) -> dict[str, int]:
     """How many ticks each range gets."""
     ranges = [name for name, asked in columns.items() if isinstance(asked, Span) and asked.varies]
     if spec.grid is None:
+        if spec.n is None and len(ranges) in EACH:
+            return dict.fromkeys(ranges, EACH[len(ranges)])
         if spec.n is None:
             cure = f"write cases: {{grid: {{{', '.join(f'{name}: 10' for name in ranges)}}}}}"
             raise StudyError("a grid needs a count for each range, or n", element="cases", cure=cure)

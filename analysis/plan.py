@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +14,7 @@ import numpy as np
 import pinocchio as pin
 
 from rover_pin.analysis.cases import Questions
+from rover_pin.analysis.declared import asked_of, declared
 from rover_pin.analysis.draw import draw
 from rover_pin.analysis.job import Job
 from rover_pin.analysis.provenance import digest, versions
@@ -55,15 +57,13 @@ def plan(spec: StudySpec, folder: Path, file: object, given: Rover | None = None
     """
     terrain: Terrain = spec.terrain.build(folder)
     base = load_from(spec, folder) if given is None else loaded(given, spec)
-    rovers = _corner_rovers(base, spec.vary.parameters, file)
+    with _named(file):
+        asked = asked_of(spec, base)
+    rovers = _corner_rovers(base, asked, file)
     rover = rovers[0]
     _check_names(spec, rover, file)
-    try:
-        cases = draw(_questions(spec.vary, rovers, terrain), spec.cases)
-    except StudyError as error:
-        raise StudyError(
-            error.what, file=file, element=error.element, value=error.value, cure=error.cure
-        ) from None
+    with _named(file):
+        cases = draw(_questions(spec.vary, asked, rovers, terrain), spec.cases)
     wheels = tuple(shape.name for shape in rover.shapes)
     margins = [name for name in spec.measures if name != BOUNDS]
     left_out = inapplicable(rover, margins)
@@ -72,10 +72,17 @@ def plan(spec: StudySpec, folder: Path, file: object, given: Rover | None = None
         rover=rover,
         terrain=terrain,
         cases=cases,
-        layout=Layout(wheels, tuple(rover.joints), measures),
+        layout=Layout(
+            wheels,
+            tuple(rover.joints),
+            measures,
+            tracks=tuple(track.name for track in rover.tracks),
+            auxiliary=tuple(wheel.name for wheel in rover.wheels if wheel.auxiliary),
+            units={name: each.unit for name, each in declared(rover).items() if each.unit},
+        ),
         gravity=spec.gravity,
         locks=spec.locks,
-        traced=_traced(rover, spec.vary.parameters, measures),
+        traced=_traced(rover, asked, measures),
     )
     made_of = {
         "the cases": cases.digest,
@@ -89,6 +96,17 @@ def plan(spec: StudySpec, folder: Path, file: object, given: Rover | None = None
         **{f"the version of {name}": text for name, text in versions().items()},
     }
     return Plan(job, rover, left_out, made_of)
+
+
+@contextlib.contextmanager
+def _named(file: object) -> Iterator[None]:
+    """Errors of the study name its file."""
+    try:
+        yield
+    except StudyError as error:
+        raise StudyError(
+            error.what, file=file, element=error.element, value=error.value, cure=error.cure
+        ) from None
 
 
 def _traced(rover: Rover, asked: Mapping[str, Quantity], measures: Sequence[str]) -> TracedText | None:
@@ -122,10 +140,6 @@ def _corner_rovers(plain: Rover, asked: Mapping[str, Quantity], file: object) ->
     Raises:
         InputError: the rover cannot be built; where the parameters are the cause, they are named.
     """
-    for name in asked:
-        if name not in plain.parameters:
-            cure = nearest(name, plain.parameters)
-            raise StudyError("no such parameter", file=file, element=f"vary.parameters.{name}", cure=cure)
     rovers = [plain]
     for end in (0, 1) if asked else ():
         corner = {name: quantity.ends[end] for name, quantity in asked.items()}
@@ -164,7 +178,9 @@ def _check_names(spec: StudySpec, rover: Rover, file: object) -> None:
             raise StudyError("no such passive joint", file=file, element="locks", value=name, cure=cure)
 
 
-def _questions(vary: VarySpec, rovers: list[Rover], terrain: Terrain) -> Questions:
+def _questions(
+    vary: VarySpec, parameters: Mapping[str, Quantity], rovers: list[Rover], terrain: Terrain
+) -> Questions:
     """What varies, the map resolved."""
     reach = max(wheel_reach(rover) for rover in rovers)
     xmin, xmax, ymin, ymax = terrain.extent
@@ -175,7 +191,7 @@ def _questions(vary: VarySpec, rovers: list[Rover], terrain: Terrain) -> Questio
             "yaw_deg": vary.yaw_deg,
         },
         friction=vary.friction,
-        parameters=vary.parameters,
+        parameters=parameters,
         joints=vary.joints,
         postures=vary.posture or (),
     )

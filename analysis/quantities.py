@@ -50,6 +50,9 @@ class Choice:
 Quantity = Span | Choice
 """A range or a choice of numbers."""
 
+MOST_VALUES = 10_000
+"""The most values that evenly spaced ones may be."""
+
 MAP = "map"
 """The word for the whole map, less the room the wheels need."""
 
@@ -74,7 +77,8 @@ def number(raw: object) -> float:
 def quantity(raw: object) -> Quantity:
     """Read a quantity: `0.5` or `[0.5]` fixed, `[lo, hi]` a range, three or more a choice.
 
-    `{values: [a, b]}` is a choice of two.
+    `{values: [a, b]}` is a choice of two, `{from: lo, to: hi, by: step}` one of evenly spaced values, as is
+    `{from: lo, to: hi, count: n}`.
 
     Raises:
         StudyError: empty, upside down, or not numbers.
@@ -82,11 +86,7 @@ def quantity(raw: object) -> Quantity:
     if isinstance(raw, Span | Choice):
         return raw
     if isinstance(raw, Mapping):
-        if set(raw) != {"values"} or not isinstance(raw["values"], list | tuple) or not raw["values"]:
-            raise StudyError(
-                "is no quantity", value=dict(raw), cure="write [lo, hi], or {values: [a, b, ...]}"
-            )
-        return Choice(tuple(number(v) for v in raw["values"]))
+        return _mapped(raw)
     if not isinstance(raw, list | tuple):
         return Choice((number(raw),))
     values = tuple(number(v) for v in raw)
@@ -97,6 +97,35 @@ def quantity(raw: object) -> Quantity:
     if values[0] > values[1]:
         raise StudyError("range is upside down", value=list(values), cure="write the lesser number first")
     return Span(*values)
+
+
+def _mapped(raw: Mapping[Any, Any]) -> Quantity:
+    """A quantity written as a mapping."""
+    keys = set(raw)
+    if keys == {"values"} and isinstance(raw["values"], list | tuple) and raw["values"]:
+        return Choice(tuple(number(v) for v in raw["values"]))
+    if keys not in ({"from", "to", "by"}, {"from", "to", "count"}):
+        cure = "write [lo, hi], {values: [a, b, ...]}, or {from: lo, to: hi, by: step}"
+        raise StudyError("is no quantity", value=dict(raw), cure=cure)
+    low, high = number(raw["from"]), number(raw["to"])
+    if low >= high:
+        raise StudyError("range is upside down", value=[low, high], cure="write the lesser number as `from`")
+    return _evenly(low, high, raw)
+
+
+def _evenly(low: float, high: float, raw: Mapping[Any, Any]) -> Choice:
+    """Evenly spaced values with both ends, as many as `count` says, or `by` apart as far as they go."""
+    if "count" in raw:
+        count = number(raw["count"])
+        if count != int(count) or not 2 <= count <= MOST_VALUES:
+            raise StudyError("is no count of values", element="count", value=raw["count"], cure="at least 2")
+        steps = int(count) - 1
+        return Choice(tuple(low + (high - low) * k / steps for k in range(steps + 1)))
+    by = number(raw["by"])
+    if by <= 0 or (high - low) / by >= MOST_VALUES:
+        cure = f"a positive step that makes at most {MOST_VALUES} values"
+        raise StudyError("is no step", element="by", value=raw["by"], cure=cure)
+    return Choice(tuple(low + k * by for k in range(int((high - low) / by * (1 + 1e-12) + 1e-9) + 1)))
 
 
 def _optional(raw: Any) -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -27,20 +27,38 @@ EDGES = "edges/"
 WORDS = "words/"
 BOUNDS = "bounds"
 PLAIN = "plain_path"
+TENSION = "tension_n"
 
 
 @dataclass(frozen=True)
 class Layout:
-    """The names along the wheel and joint dimensions, and the measures asked for."""
+    """The names along the wheel, joint and track dimensions, and the measures asked for.
+
+    Attributes:
+        wheels: wheels, then feet.
+        joints: moving joints.
+        measures: asked for.
+        tracks: cables around wheels.
+        auxiliary: those of `wheels` that are none of the wheels that should carry.
+        units: of declared parameters, where the sidecar says.
+    """
 
     wheels: tuple[str, ...]
     joints: tuple[str, ...]
     measures: tuple[str, ...]
+    tracks: tuple[str, ...] = ()
+    auxiliary: tuple[str, ...] = ()
+    units: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def margins(self) -> tuple[str, ...]:
         """The measures that give a margin (all but the load intervals)."""
         return tuple(name for name in self.measures if name != BOUNDS)
+
+    @property
+    def bearing(self) -> list[int]:
+        """Which of `wheels` should carry."""
+        return [k for k, name in enumerate(self.wheels) if name not in self.auxiliary]
 
 
 class Rows:
@@ -53,6 +71,8 @@ class Rows:
         self._limiting = {name: [""] * count for name in layout.margins}
         self._edges: dict[str, list[Mapping[str, float]]] = {name: [{}] * count for name in layout.margins}
         wide = {"load_n": layout.wheels, "joint_rad": layout.joints}
+        if layout.tracks:
+            wide[TENSION] = layout.tracks
         if BOUNDS in layout.measures:
             wide |= {"load_low_n": layout.wheels, "load_high_n": layout.wheels}
         narrow = (*POSE, *RESIDUALS, "redundant", *layout.margins)
@@ -75,6 +95,8 @@ class Rows:
         numbers["joint_rad"][row] = [stance.joints[name] for name in self.layout.joints]
         numbers["load_n"][row] = [stance.loads[name] for name in self.layout.wheels]
         numbers["redundant"][row] = stance.redundant
+        if self.layout.tracks:
+            numbers[TENSION][row] = [stance.tensions[name] for name in self.layout.tracks]
         for name in RESIDUALS:
             numbers[name][row] = stance.residuals[name]
 

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_pin.analysis.carrying import load_spread, touching
 from rover_pin.analysis.cases import POSTURE, Cases
 from rover_pin.analysis.found import Found
 from rover_pin.analysis.measures import title
-from rover_pin.analysis.rows import BOUNDS, EDGES, PLAIN, POSE, RESIDUALS, Columns, Layout, words
+from rover_pin.analysis.rows import BOUNDS, EDGES, PLAIN, POSE, RESIDUALS, TENSION, Columns, Layout, words
 from rover_pin.analysis.vocabulary import Words, longest
+from rover_pin.numerics import Array
 from rover_pin.stability.registry import MEASURES
 
-CASE, WHEEL, EDGE, JOINT = "case", "wheel", "edge", "joint"
+CASE, WHEEL, EDGE, JOINT, TRACK = "case", "wheel", "edge", "joint", "track"
 
 ABOUT: dict[str, tuple[str, str]] = {
     "z_m": ("m", "height of the root link's origin"),
@@ -34,12 +36,17 @@ ABOUT: dict[str, tuple[str, str]] = {
     "load_low_n": ("N", "least load that equilibrium and friction allow"),
     "load_high_n": ("N", "greatest load that equilibrium and friction allow"),
     "joint_rad": ("rad", "joint position; m where the joint slides"),
+    "tension_n": ("N", "tension of the track; zero where it is slack"),
+    "touching": ("1", "wheels that carry more than 1e-3 N, auxiliary ones left out"),
+    "load_spread": ("1", "standard deviation of the wheels' loads over their mean, auxiliary ones left out"),
     "x_m": ("m", "x of the root link's origin"),
     "y_m": ("m", "y of the root link's origin"),
     "yaw_rad": ("rad", "heading of the root link"),
     "friction_given": ("1", "coefficient of Coulomb friction under every wheel"),
 }
-ACROSS = {"load_n": WHEEL, "load_low_n": WHEEL, "load_high_n": WHEEL, "joint_rad": JOINT}
+ACROSS = {"load_n": WHEEL, "load_low_n": WHEEL, "load_high_n": WHEEL, "joint_rad": JOINT, TENSION: TRACK}
+CARRYING = {"touching": (touching, "high"), "load_spread": (load_spread, "low")}
+"""What follows from the loads alone, and which way is better."""
 INTERVALS = ("load_low_n", "load_high_n")
 
 
@@ -90,7 +97,10 @@ def schema(layout: Layout, cases: Cases, found: Found) -> Schema:
         answers += _measure(name, layout, found, edges)
     taken = {variable.name for variable in answers} | {CASE, WHEEL, EDGE, JOINT}
     labels = {WHEEL: list(layout.wheels), JOINT: list(layout.joints), EDGE: edges}
-    return Schema((*answers, *_asked(cases, taken)), labels)
+    if layout.tracks:
+        labels[TRACK] = list(layout.tracks)
+        taken.add(TRACK)
+    return Schema((*answers, *_asked(cases, taken, layout.units)), labels)
 
 
 def _on_wheels(names: set[str], layout: Layout) -> bool:
@@ -105,15 +115,25 @@ def _plain_answers(layout: Layout, found: Found) -> Iterator[Variable]:
     text = "which path answered: 0 the compiled one, 1 the plain one"
     yield Variable(PLAIN, (CASE,), {"long_name": text}, _column(PLAIN), kind="i1")
     numbers = (*POSE, "redundant", *RESIDUALS, "load_n", "joint_rad")
-    for name in (*numbers, *(INTERVALS if BOUNDS in layout.measures else ())):
+    tensions = (TENSION,) if layout.tracks else ()
+    for name in (*numbers, *tensions, *(INTERVALS if BOUNDS in layout.measures else ())):
         unit, text = ABOUT[name]
         dims = (CASE, ACROSS[name]) if name in ACROSS else (CASE,)
-        yield Variable(name, dims, {"units": unit, "long_name": text}, _column(name))
+        idle = {"auxiliary": ", ".join(layout.auxiliary)} if name == "load_n" and layout.auxiliary else {}
+        yield Variable(name, dims, {"units": unit, "long_name": text, **idle}, _column(name))
+    for name, (formula, better) in CARRYING.items():
+        unit, text = ABOUT[name]
+        attrs = {"units": unit, "long_name": text, "better": better}
+        yield Variable(name, (CASE,), attrs, _carrying(formula, layout.bearing))
 
 
 def _words(name: str, text: str, found: Found) -> Variable:
     attrs = {"long_name": text}
     return Variable(name, (CASE,), attrs, lambda block: words(block.columns, name), "S", found.width[name])
+
+
+def _carrying(formula: Callable[[Array], Array], bearing: list[int]) -> Callable[[Block], Array]:
+    return lambda block: formula(block.columns["load_n"][:, bearing])
 
 
 def _column(name: str) -> Callable[[Block], NDArray[Any]]:
@@ -142,13 +162,12 @@ def _measure(name: str, layout: Layout, found: Found, edges: list[str]) -> Itera
     yield Variable(f"{name}_{dim}", (CASE, dim), attrs, take, sparse=not on_wheels)
 
 
-def _asked(cases: Cases, taken: set[str]) -> Iterator[Variable]:
+def _asked(cases: Cases, taken: set[str], units: Mapping[str, str]) -> Iterator[Variable]:
     """What was asked: one variable per quantity."""
 
-    def number(name: str, take: Callable[[Cases], NDArray[Any]]) -> Variable:
+    def number(name: str, take: Callable[[Cases], NDArray[Any]], **more: str) -> Variable:
         unit, text = ABOUT.get(name, ("", f"{name} asked for"))
-        units = {"units": unit} if unit else {}
-        attrs = {**units, "long_name": text}
+        attrs = {**({"units": unit} if unit else {}), "long_name": text, **more}
         return Variable(name, (CASE,), attrs, lambda block: take(block.cases), asked=True)
 
     yield number("x_m", lambda drawn: drawn.x)
@@ -168,6 +187,7 @@ def _asked(cases: Cases, taken: set[str]) -> Iterator[Variable]:
         )
     for name in cases.parameters:
         own = name if name not in taken else f"parameter_{name}"
-        yield number(own, lambda drawn, name=name: drawn.parameters[name])  # type: ignore[misc]
+        unit = {"units": units[name]} if units.get(name) else {}
+        yield number(own, lambda drawn, name=name: drawn.parameters[name], parameter=name, **unit)  # type: ignore[misc]
     for name in cases.joints:
         yield number(f"joint_{name}", lambda drawn, name=name: drawn.joints[name])  # type: ignore[misc]

@@ -45,24 +45,45 @@ class CasesSpec(Strict):
 
     `sobol`: n scrambled Sobol points of `seed` over everything that varies. `grid`: every combination, ranges
     cut into the counts of `grid` (by the quantity's name), or into one common count so that there are at
-    most n cases.
+    most n cases; where both are silent one range is cut into 41, two into 21 each. `sensitivity`: one design,
+    and each of the parameters `to` (all where silent) moved from it alone by the share `step` of its value.
+    A bare word is a sampler.
     """
 
-    sampler: Literal["sobol", "grid"] = "sobol"
+    sampler: Literal["sobol", "grid", "sensitivity"] = "sobol"
     n: int | None = Field(default=None, ge=1, le=MOST_CASES)
     seed: int = Field(default=0, ge=0)
     grid: dict[str, Annotated[int, Field(ge=1)]] | None = None
+    step: float = Field(default=0.01, gt=0, le=0.5)
+    to: tuple[str, ...] | None = None
 
     @model_validator(mode="before")
     @classmethod
-    def _sampler_follows_grid(cls, raw: Any) -> Any:
-        if isinstance(raw, dict) and raw.get("grid") is not None:
+    def _sampler_follows(cls, raw: Any) -> Any:
+        if isinstance(raw, str):
+            return {"sampler": raw}
+        if not isinstance(raw, dict):
+            return raw
+        alone = [key for key in ("step", "to") if raw.get(key) is not None]
+        if alone:
+            if raw.get("sampler", "sensitivity") != "sensitivity":
+                raise StudyError("needs the sampler sensitivity", element=alone[0], value=raw["sampler"])
+            raw = {**raw, "sampler": "sensitivity"}
+        if raw.get("sampler") == "sensitivity" and raw.get("n") is not None:
+            cure = "leave it out: there are four cases a parameter, and one"
+            raise StudyError("does not say how many cases sensitivities take", element="n", cure=cure)
+        if raw.get("grid") is not None:
             if raw.get("sampler", "grid") != "grid":
                 raise StudyError("counts need the sampler grid", element="grid", value=raw["sampler"])
             if raw.get("n") is not None:
                 raise StudyError("n and grid both say how many", element="n", value=raw["n"], cure="keep one")
             return {**raw, "sampler": "grid"}
         return raw
+
+    @field_validator("to", mode="before")
+    @classmethod
+    def _one_name(cls, raw: Any) -> Any:
+        return [raw] if isinstance(raw, str) else raw
 
     @property
     def number(self) -> int:
@@ -141,6 +162,20 @@ class StudySpec(Strict):
     measures: Measures = CHEAP
     gravity: Gravity = 9.81
     payload: tuple[PayloadSpec, ...] = ()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _at_one_place(cls, raw: Any) -> Any:
+        """Sensitivities are taken at one place where the file does not say what varies."""
+        if not isinstance(raw, dict) or raw.get("vary") is not None:
+            return raw
+        cases = raw.get("cases")
+        words = (
+            cases.get("sampler", "sensitivity" if {"step", "to"} & set(cases) else "")
+            if isinstance(cases, dict)
+            else cases
+        )
+        return {**raw, "vary": {}} if words == "sensitivity" else raw
 
 
 def read_spec(path: Path) -> tuple[StudySpec, str]:

@@ -46,6 +46,9 @@ def settle(
     gravity: Annotated[str, typer.Option(help="m/s2, or earth, moon, mars.")] = "earth",
     payload: Annotated[list[str] | None, typer.Option(help="Mass on the base.", metavar="KG@X,Y,Z")] = None,
     friction: Annotated[str | None, typer.Option(help="Friction under every wheel.", metavar="MU")] = None,
+    resistance: Annotated[
+        str, typer.Option(help="Motion resistance against the heading.", metavar="NEWTON")
+    ] = "0",
     html: Annotated[Path | None, typer.Option(help="Write a page that shows it.", metavar="FILE")] = None,
     png: Annotated[
         Path | None, typer.Option(help="Write a picture (needs Chromium).", metavar="FILE")
@@ -80,6 +83,7 @@ def settle(
         joints=numbers(joint, "--joint") or None,
         locks=tuple(lock or ()),
         gravity=parse_gravity(gravity),
+        resistance=number(resistance, "--resistance"),
     )
     margins = measured(stance, mu)
     _save(stance, html, png)

@@ -79,6 +79,7 @@ def print_stance(stance: Stance, margins: Mapping[str, Margin]) -> None:
     if not stance.settled:
         return
     _print_wheels(stance)
+    _print_inside(stance)
     _print_measures(margins)
     line("residuals: " + "  ".join(f"{name} {value:.1e}" for name, value in stance.residuals.items()))
     if stance.redundant:
@@ -101,6 +102,24 @@ def _print_wheels(stance: Stance) -> None:
             shape.name, f"{load:.2f}", f"{share:.1f}", f"{gap:.3f}" if abs(gap) > 5e-4 else "0", str(touching)
         )
     print_table(table)
+
+
+def _print_inside(stance: Stance) -> None:
+    """Tracks and springs, a line each."""
+    for name, tension in stance.tensions.items():
+        tight = stance.tight.get(name, tension)
+        strands = f"{tension:.2f} N" if tight == tension else f"{tight:.2f} N tight, {tension:.2f} N slack"
+        line(f"track {name}: {strands}")
+    rover = stance.rover
+    turning = {name for name, turns in zip(rover.dof_names, rover.turning, strict=True) if turns}
+    units = {s.name: "N m" if getattr(s, "joint", None) in turning else "N" for s in rover.springs}
+    for name, force in stance.springs.items():
+        stop = stance.stops.get(name)
+        line(f"spring {name}: {force:.2f} {units[name]}" + (f", stop {stop:.2f} N" if stop else ""))
+    if stance.resistance:
+        pulled = "  ".join(f"{name} {force:.2f}" for name, force in stance.tractions.items() if force)
+        line(f"tractions N against {stance.resistance:g} N: {pulled}")
+        line(f"tangential over vertical force: {stance.traction_ratio:.4f}")
 
 
 def _print_measures(margins: Mapping[str, Margin]) -> None:

@@ -9,7 +9,7 @@ from typing import Annotated, Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
 from rover_pin.errors import SidecarError, nearest
 from rover_pin.mechanism.bending import bend_cable
@@ -71,6 +71,22 @@ class PulleySpec(BaseModel):
     side: Side = "inside"
 
 
+def _entry_kind(value: object) -> str:
+    if isinstance(value, dict):
+        return "<frame>" if "frame" in value else "<wheel>"
+    if isinstance(value, WrapSpec):
+        return "<wheel>"
+    return "<frame>" if isinstance(value, PulleySpec) else "<name>"
+
+
+Entry = Annotated[
+    Annotated[str, Tag("<name>")]
+    | Annotated[WrapSpec, Tag("<wheel>")]
+    | Annotated[PulleySpec, Tag("<frame>")],
+    Discriminator(_entry_kind),
+]
+
+
 @dataclass(frozen=True, eq=False)
 class Circle:
     """A circle of a track, in the frame of the joint that carries it.
@@ -96,7 +112,7 @@ class TrackSpec(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     name: str
-    wheels: Annotated[tuple[str | WrapSpec | PulleySpec, ...], Field(min_length=2)]
+    wheels: Annotated[tuple[Entry, ...], Field(min_length=2)]
     length: Positive
 
     def resolve(self, at: Kinematics, wheels: Mapping[str, Round], *, file: object = None) -> Track:
@@ -232,7 +248,7 @@ class Track:
                     raise SidecarError(f"{one.name} and {other.name} overlap, with the cable between them",
                                        file=file, element=element, value=f"{apart:.4g} m apart",
                                        cure="check both radii, and `side`")  # fmt: skip
-        if not np.isfinite(wrap.length) or abs(np.sum(wrap.turns) - 2.0 * np.pi) > 1e-6:
+        if not np.isfinite(wrap.length) or _crosses(wrap.centers @ wrap.plane[:, :2]):
             raise SidecarError("its wheels are not in order around the loop", file=file, element=element,
                                value=", ".join(c.name for c in self.circles),
                                cure="list them one after the other along the cable")  # fmt: skip
@@ -350,6 +366,21 @@ def _mover_out_of_plane(at: Kinematics, circle: Circle, first: Circle, normal: A
         if np.linalg.norm(np.cross(turning, normal)) > PARALLEL or abs(sliding @ normal) > PARALLEL:
             return str(at.model.names[FIRST_JOINT + column - BASE])
     return None
+
+
+def _crosses(places: Array) -> bool:
+    """Whether two sides of a closed polygon cross each other."""
+    following = np.roll(places, -1, axis=0)
+    count = len(places)
+    for i in range(count):
+        for j in range(i + 2, count - (i == 0)):
+            ends = [places[i], following[i], places[j], following[j]]
+            if all(
+                _area(np.array([*side, a])) * _area(np.array([*side, b])) < 0.0
+                for side, a, b in ((ends[:2], *ends[2:]), (ends[2:], *ends[:2]))
+            ):
+                return True
+    return False
 
 
 def _area(places: Array) -> float:

@@ -297,7 +297,7 @@ class Problem:
         return matrix
 
     def _is_smooth(self, state: State, terrain: Terrain, loaded: Integers) -> bool:
-        """Whether the ground has its own normal at the loaded contacts, and rings lie on it, pulling nothing."""
+        """Whether the ground has its own normal at the loaded contacts of rings, and none of them pulls."""
         owners = state.owners[loaded]
         if (
             self.resistance is not None

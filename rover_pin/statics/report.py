@@ -241,7 +241,7 @@ def _pulling(
     return {
         "tight": MappingProxyType(tight),
         "tractions": MappingProxyType(tractions),
-        "traction_ratio": resistance.ratio,
+        "traction_ratio": resistance.sense * resistance.ratio,
         "resistance": resistance.force,
     }
 

@@ -15,9 +15,8 @@ import pinocchio as pin
 
 from rover_pin.contact.place import SEGMENT
 from rover_pin.mechanism import Bilateral, Kinematics
-from rover_pin.mechanism.cable import OFF
 from rover_pin.numerics import Array, cross
-from rover_pin.statics.resistance import Resistance, Span, pulled_at, tight_spans
+from rover_pin.statics.resistance import Resistance, pulled_at, tight_spans
 from rover_pin.statics.stance import Contact
 from rover_pin.terrain.surface import LINEAR
 
@@ -73,11 +72,7 @@ def equilibrium(
 
 
 def _pulling(rover: Rover, at: Kinematics, contacts: Sequence[Contact], resistance: Resistance) -> Array:
-    """(nv,) of the resistance, the tractions and what they add to the tracks' tensions.
-
-    Every track is gone around span by span with the tension that each has: it pulls where it touches, the
-    ground where it pulls; a roller's moments about its axis then vanish by themselves.
-    """
+    """(nv,) of the resistance, the tractions and what they add to the tracks' tensions, on q itself."""
     model: Any = rover.model
     total: Array = -resistance.force * (resistance.heading @ pin.jacobianCenterOfMass(model, at.data, at.q))
     tracked = {circle.name for track in rover.tracks for circle in track.circles}
@@ -93,7 +88,6 @@ def _pulling(rover: Rover, at: Kinematics, contacts: Sequence[Contact], resistan
         total = total + force @ at.point_jacobian(contact.joint, spot)
     for track in rover.tracks:
         wrap = track.wrap(at)
-        extra = np.zeros(len(track.circles))
         driven = resistance.driven(track)
         for contact in contacts:
             names = [circle.name for circle in track.circles]
@@ -104,16 +98,11 @@ def _pulling(rover: Rover, at: Kinematics, contacts: Sequence[Contact], resistan
                 wrap, names.index(contact.wheel), driven, resistance.sense * tangent, contact.normal
             )
             for span in spans:
-                extra[span.leaves] += resistance.ratio * contact.load
-        for a, b in enumerate(wrap.following.tolist()):
-            if b == OFF or extra[a] == 0.0:
-                continue
-            u, v = wrap.spans[a, :2]
-            along = u * wrap.plane[:, 0] + v * wrap.plane[:, 1]
-            for end, sign in ((a, 1.0), (b, -1.0)):
-                spot = pulled_at(wrap, end, driven, Span(a, b, along))
-                jacobian = at.point_jacobian(track.circles[end].joint, spot)
-                total = total + sign * extra[a] * (along @ jacobian)
+                for end, sign in ((span.leaves, 1.0), (span.meets, -1.0)):
+                    spot = pulled_at(wrap, end, driven, span)
+                    jacobian = at.point_jacobian(track.circles[end].joint, spot)
+                    pull_here = sign * resistance.ratio * contact.load
+                    total = total + pull_here * (span.direction @ jacobian)
     return total
 
 

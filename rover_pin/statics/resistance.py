@@ -12,6 +12,7 @@ motor, so that its traction acts at the contact. Wheels marked `free` of no trac
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -171,6 +172,8 @@ def pulled_at(wrap: Wrap, circle: int, driven: int, span: Span) -> Array:
 def tight_spans(wrap: Wrap, circle: int, driven: int, tangent: Array, normal: Array) -> list[Span]:
     """Spans whose tension a unit traction at a circle's contact raises: from there to the driven wheel.
 
+    A wheel that the taut cable passes without a turn still presses it to the ground: its span is cut there.
+
     Args:
         wrap: the taut way around.
         circle: at whose contact the ground pulls.
@@ -178,18 +181,29 @@ def tight_spans(wrap: Wrap, circle: int, driven: int, tangent: Array, normal: Ar
         tangent: (3,) direction of the ground's force on the cable.
         normal: (3,) of the ground.
     """
-    if wrap.following[circle] == OFF or circle == driven:
+    if circle == driven:
         return []
     way = np.cross(wrap.plane[:, 2], -normal)  # of the cable past the contact
     forwards = bool(way @ tangent < 0.0)  # the ground pulls against the way: what follows is tight
-    before = {int(b): a for a, b in enumerate(wrap.following) if b != OFF}
+    after = {a: int(b) for a, b in enumerate(wrap.following) if b != OFF}
+    before = {b: a for a, b in after.items()}
+    directions = {a: wrap.spans[a] for a in after}
+    if circle not in after:
+        last = next(a for a in _round(circle, -1, len(wrap.following)) if a in after)
+        after[circle], before[circle], directions[circle] = after[last], last, wrap.spans[last]
     spans = []
     here = circle
     for _ in range(len(wrap.following)):
-        leaves, meets = (here, int(wrap.following[here])) if forwards else (before[here], here)
-        u, v = wrap.spans[leaves, :2]
+        leaves, meets = (here, after[here]) if forwards else (before[here], here)
+        u, v = directions[leaves][:2]
         spans.append(Span(leaves, meets, u * wrap.plane[:, 0] + v * wrap.plane[:, 1]))
         here = meets if forwards else leaves
         if here == driven:
             break
     return spans
+
+
+def _round(start: int, step: int, count: int) -> Iterator[int]:
+    """Circles from `start` on, once around."""
+    for k in range(count):
+        yield (start + step * k) % count
