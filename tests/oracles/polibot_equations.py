@@ -20,8 +20,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
+from damped_newton import newton
 from taut_belt import Belt, around, taut
 
 IDENTIFIED = {
@@ -166,13 +168,16 @@ def belt_around(setup: Setup, p: Mapping[str, complex], on: tuple[int, ...] | No
 
 
 def wheel_forces(belt: Belt, t2: float, traction: np.ndarray, loads: np.ndarray) -> dict[int, complex]:
-    """What track and ground press on the centres of wheels 2 to 6 [N]."""
-    forces, tension, along = {}, t2, 1.0 + 0.0j
+    """What track and ground press on the centres of wheels 2 to 6 [N].
+
+    A wheel that the belt passes straight presses it to the ground all the same: t_in = t_out.
+    """
+    forces, tension, way = {}, t2, belt.t_out[0]
     for i in range(1, 6):
         n, f = (loads[i - 2], traction[i - 2]) if i > 1 else (0.0, 0.0)
-        t_in, t_out = belt.t_in.get(i, along), belt.t_out.get(i, along)
-        forces[i] = tension * (along - t_in) + (tension + f) * (t_out - along) + 1j * n
-        tension += f
+        t_in, t_out = way, belt.t_out.get(i, way)
+        forces[i] = tension * (1.0 - t_in) + (tension + f) * (t_out - 1.0) + 1j * n
+        tension, way = tension + f, t_out
     return forces
 
 
@@ -216,36 +221,7 @@ def start() -> np.ndarray:
 
 
 _STEP = np.array([1e-4, 1e-4, *[1e-6] * 5, *[1e-3] * 10, 1e-6, *[1e-3] * 3])
-
-
-def _newton(x: np.ndarray, setup: Setup, regime: Regime) -> np.ndarray | None:
-    """Damped Newton with central differences; None where it does not arrive."""
-    r = equations(x, setup, regime)
-    for _ in range(60):
-        size = np.max(np.abs(r))
-        if not np.isfinite(size):
-            return None
-        columns = [
-            (equations(x + h * e, setup, regime) - equations(x - h * e, setup, regime)) / (2.0 * h)
-            for h, e in zip(_STEP, np.eye(21), strict=True)
-        ]
-        try:
-            dx = np.linalg.solve(np.column_stack(columns), -r)
-        except np.linalg.LinAlgError:
-            return None
-        dx *= min(1.0, 0.2 / max(np.max(np.abs(dx[2:7])), 1e-12), 50.0 / max(np.max(np.abs(dx[:2])), 1e-12))
-        scale = 1.0
-        while scale > 1e-4:
-            tried = equations(x + scale * dx, setup, regime)
-            if np.all(np.isfinite(tried)) and (np.max(np.abs(tried)) < size or size < 1e-8):
-                break
-            scale /= 2.0
-        else:
-            return x if size < 1e-8 else None
-        x, r = x + scale * dx, tried
-        if size < 1e-9 and np.max(np.abs(dx)) < 1e-9:
-            return x
-    return x if np.max(np.abs(r)) < 1e-8 else None
+_REACH = np.array([50.0, 50.0, *[0.2] * 5, *[np.inf] * 14])
 
 
 def _read(x: np.ndarray, setup: Setup, regime: Regime) -> Answer:
@@ -287,7 +263,7 @@ def solve(setup: Setup, guess: np.ndarray | None = None, regime: Regime | None =
     """From a nearby guess: Newton in a regime, which is corrected until the answer bears it out."""
     x, regime = start() if guess is None else guess, regime or Regime()
     for _ in range(12):
-        found = _newton(x, setup, regime)
+        found = newton(partial(equations, setup=setup, regime=regime), x, _STEP, _REACH)
         if found is None:
             return None
         answer = _read(found, setup, regime)
