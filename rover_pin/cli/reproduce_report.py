@@ -43,13 +43,11 @@ def print_results(paper: Paper, results: Results) -> None:
 
 
 def _groups(findings: Sequence[Finding]) -> list[list[Finding]]:
-    """Findings that follow each other and stand in one place of the paper."""
-    found: list[list[Finding]] = []
+    """Findings that stand in one place of the paper."""
+    found: dict[str, list[Finding]] = {}
     for each in findings:
-        if not found or found[-1][0].where != each.where:
-            found.append([])
-        found[-1].append(each)
-    return found
+        found.setdefault(each.where, []).append(each)
+    return list(found.values())
 
 
 def _print_group(group: Sequence[Finding]) -> None:
