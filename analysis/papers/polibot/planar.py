@@ -31,7 +31,7 @@ STATE = (
 """What a case is solved for: mm, rad, N."""
 
 STEP = 1e-30
-MOST_STEPS = 40
+MOST_STEPS, MOST_HALVINGS = 16, 6
 CLOSE = 1e-9
 GRAVITY = 9.81
 
@@ -105,7 +105,6 @@ def solve(lengths: Array, inputs: Inputs, start: Array) -> Solved:
         turn, move = np.max(np.abs(step[2:7]), axis=0), np.max(np.abs(step[:2]), axis=0)
         step *= np.minimum(1.0, np.minimum(0.2 / np.maximum(turn, 1e-12), 40.0 / np.maximum(move, 1e-12)))
         state, size = _shortened(state, step, size, lengths, inputs)
-    value, slope = _by_state(state, lengths, inputs)
     moved = lengths[:, None, None] + 1j * STEP * np.eye(len(lengths))[:, :, None]
     by_length = equations(state[:, None, :], moved, inputs).imag / STEP
     return Solved(state, -_linear(slope, by_length), _size(value) < 1e-6)
@@ -117,7 +116,7 @@ def _shortened(
     """The state after a step that makes the equations' largest residual smaller, case by case."""
     share = np.ones(inputs.count)
     best, best_size = state, size
-    for _ in range(12):
+    for _ in range(MOST_HALVINGS):
         tried = state + share * step
         now = _size(equations(tried, lengths[:, None], inputs))
         better = now < np.maximum(size, CLOSE)
@@ -165,7 +164,7 @@ def equations(state: Numbers, lengths: Numbers, inputs: Inputs) -> Numbers:
     p = points(pose, g, inputs.front_arm)
     wheels = [p[name] for name in "AOPKIM"]
     radii = [g[f"r{k}"] for k in range(1, 7)]
-    length, pulls = belt(wheels, radii)
+    length, pulls, _ = belt(wheels, radii)
     weight = inputs.mass * GRAVITY
     push = [tension * pull for pull in pulls]
     for k in range(4):
@@ -226,8 +225,17 @@ def points(pose: Numbers, g: Mapping[str, Numbers], front_arm: Numbers) -> dict[
     }  # fmt: skip
 
 
-def belt(wheels: Sequence[Numbers], radii: Sequence[Numbers]) -> tuple[Numbers, list[Numbers]]:
-    """Length of a belt around wheels, and the force on each centre at unit tension: Appendix D, corrected.
+def arcs(lengths: Array, state: Array, inputs: Inputs) -> Array:
+    """(6, c) rad, what the belt turns at each wheel; negative where the wheel would not touch it."""
+    g = dict(zip(LENGTHS, lengths[:, None], strict=True))
+    p = points(state[:7], g, inputs.front_arm)
+    return np.array(belt([p[name] for name in "AOPKIM"], [g[f"r{k}"] for k in range(1, 7)])[2])
+
+
+def belt(
+    wheels: Sequence[Numbers], radii: Sequence[Numbers]
+) -> tuple[Numbers, list[Numbers], list[Numbers]]:
+    """Length of a belt around wheels, the force on each centre at unit tension, the arcs: Appendix D, corrected.
 
     A wheel that would not touch counts with a negative arc: on level ground the road wheels between the ends lie on
     the belt's straight part, where length and forces are the same either way.
@@ -246,13 +254,14 @@ def belt(wheels: Sequence[Numbers], radii: Sequence[Numbers]) -> tuple[Numbers, 
         along.append(np.array([span * apart[0] - less * apart[1], span * apart[1] + less * apart[0]]) / square)
         spans.append(span)
     length = sum(spans)
-    pulls = []
+    pulls, turns = [], []
     for i in range(count):
         before, after = along[i - 1], along[i]
         turn = _angle(_turn(before, after), before[0] * after[0] + before[1] * after[1])
         length = length + radii[i] * turn
         pulls.append(after - before)
-    return length, pulls
+        turns.append(turn)
+    return length, pulls, turns
 
 
 def _turn(arm: Numbers, force: Numbers) -> Numbers:
