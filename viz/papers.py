@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from rover_pin.analysis.papers import Chart, Curve, Finding, Mark, Panel, Paper, Results
 
-OURS, SAID = "#0b57a4", "#d95f02"
+OURS, OTHER, SAID = "#0b57a4", "0.25", "#d95f02"
 LINES = {"solid": "-", "dashed": "--", "dotted": ":"}
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
 COLUMNS = 9
@@ -71,11 +71,12 @@ def _draw_panel(axes: Axes, panel: Panel, *, titled: bool) -> None:
         axes.set_ylim(np.floor(low) - 0.3, np.ceil(high) + 0.3)
         axes.yaxis.get_major_locator().set_params(integer=True)
     if panel.marks or any(curve.label for curve in panel.curves):
-        axes.legend(frameon=False, fontsize=7, handlelength=1.8)
+        axes.legend(frameon=False, fontsize=7, handlelength=2.4)
 
 
 def _draw_curve(axes: Axes, curve: Curve) -> None:
-    look: dict[str, Any] = {"color": "0.6" if curve.faint else OURS, "linewidth": 0.7 if curve.faint else 1.3}
+    colour = "0.6" if curve.faint else OURS if curve.style == "solid" else OTHER
+    look: dict[str, Any] = {"color": colour, "linewidth": 0.7 if curve.faint else 1.3}
     if len(curve.x) < 20:
         look |= {"marker": "o", "markersize": 2.5}
     how = {"drawstyle": "steps-mid"} if curve.steps else {}

@@ -22,8 +22,8 @@ HIGHEST, COUNT = 0.065, 53
 """m, as high as the first road wheel's radius; heights computed."""
 
 INDIRECT = (
-    "an indirect check: the X-shaped robot's springs and track are ours, set so that its first tension is Polibot's,"
-    " as the paper says without giving them"
+    "an indirect look: the paper gives no springs, track or upper wheels of the X-shaped robot; ours are chosen, its"
+    " track for Polibot's first tension and its upper wheels for the height at which the tension ends"
 )
 
 
@@ -84,13 +84,13 @@ def _findings(ours: Climb, theirs: Climb) -> list[Finding]:
     return [
         compared("both robots: first tension, X-shaped over Polibot", "", 1.0,
                  theirs.tension[0] / ours.tension[0], within=0.01, where="Fig. 21", used=True,
-                 why="the X-shaped robot's track is set to it"),
+                 why="the X-shaped robot's track length was fitted to it"),
         claimed("Polibot: fewest wheels in contact up to 65 mm", "", "4", fewest, fewest == 4.0,
                 where="Fig. 20", why="counted above 1e-3 N at every height; not used in the identification"),
         claimed("Polibot: least tension up to 65 mm, of the first", "%", "well above zero", least,
                 least > 50.0, where="Fig. 21", why="above half of it counts; not used in the identification"),
         compared("X-shaped: height at which the tension ends, of the radius", "%", 35.0, slack, within=2.5,
-                 where="Fig. 21", at_most=PARTLY, why=INDIRECT),
+                 where="Fig. 21", used=True, why="the height of the X-shaped robot's upper wheels was fitted to it"),
         claimed("X-shaped: sigma_N on level ground, of Polibot's", "", "lower",
                 theirs.spread[0] / ours.spread[0], theirs.spread[0] < ours.spread[0], where="Fig. 20",
                 at_most=PARTLY, why=INDIRECT),
@@ -140,7 +140,7 @@ def _indicators(ours: Climb, theirs: Climb) -> Chart:
         Panel("wheels in contact", _pair(ours, theirs, "touching", steps=True)),
         Panel("$\\sigma_N$", _pair(ours, theirs, "spread"), (Mark(28.0, None, "paper: equal at 28 %"),)),
     )
-    return Chart("fig_20", "Fig. 20: obstacle under the first road wheel and the performance indicators",
+    return Chart("fig_20", "Fig. 20: obstacle under W3 and the indicators",
                  "obstacle's height over the wheel's radius [%]", panels)  # fmt: skip
 
 
@@ -148,5 +148,5 @@ def _tensions(ours: Climb, theirs: Climb) -> Chart:
     panel = Panel(
         "tension [N]", _pair(ours, theirs, "tension"), (Mark(35.0, None, "paper: X-shaped ends at 35 %"),)
     )
-    return Chart("fig_21", "Fig. 21: obstacle under the first road wheel and track tension",
+    return Chart("fig_21", "Fig. 21: obstacle under W3 and track tension",
                  "obstacle's height over the wheel's radius [%]", (panel,))  # fmt: skip

@@ -37,6 +37,9 @@ WIDE, NARROW = 0.15, 1e-5
 SHORT = 0.05
 """Weight of a step over the bounds against a miss."""
 
+EVEN, NEARLY = 8, 5.0
+"""Where squares end with a target just missed, below the second number, sums of this power even the misses out."""
+
 SLIGHT = 1e-6
 """rad: by how much a wheel may keep off the belt; on level ground the middle ones just touch it."""
 
@@ -128,6 +131,8 @@ def worst(fit: Fit, use: int) -> float:
 def closer(fit: Fit, use: int, *, held: int | None = None, most: int = 60, enough: float = ENOUGH) -> Fit:
     """The second stage: Gauss and Newton's steps within the bounds and a box, until the first `use` targets are met.
 
+    Least squares first; where they end with a target just missed, higher powers, which even the misses out.
+
     Of the steps that do equally well the shortest is taken, so that what nothing fixes stays near where it was.
 
     Args:
@@ -137,35 +142,39 @@ def closer(fit: Fit, use: int, *, held: int | None = None, most: int = 60, enoug
         most: steps.
         enough: largest miss at which to stop.
     """
-    radius = WIDE
-    for _ in range(most):
-        if worst(fit, use) <= enough or radius < NARROW or not fit.good:
+    for power in (2, EVEN):
+        radius = WIDE
+        for _ in range(most):
+            if worst(fit, use) <= enough or radius < NARROW or not fit.good:
+                break
+            tried = evaluated(_stepped(fit, use, held, radius, power), fit.start, fit.state)
+            if _sum(tried, use, power) < _sum(fit, use, power):
+                fit, radius = tried, min(WIDE, 2.0 * radius)
+            else:
+                radius /= 4.0
+        if not 1.0 < worst(fit, use) < NEARLY:
             break
-        tried = evaluated(_stepped(fit, use, held, radius), fit.start, fit.state)
-        if _squares(tried, use) < _squares(fit, use):
-            fit, radius = tried, min(WIDE, 2.0 * radius)
-        else:
-            radius /= 4.0
     return fit
 
 
-def _stepped(fit: Fit, use: int, held: int | None, radius: float) -> Array:
-    """Lengths after one step."""
+def _stepped(fit: Fit, use: int, held: int | None, radius: float, power: int) -> Array:
+    """Lengths after one step towards the least sum of powers, its weights taken where it begins."""
     open_ = FREE if held is None else FREE[held != FREE]
     span = (UPPER - LOWER)[open_]
     at = (fit.lengths[open_] - LOWER[open_]) / span
     low, high = np.maximum(-at, -radius), np.minimum(1.0 - at, radius)
     low, high = np.minimum(low, -1e-12), np.maximum(high, 1e-12)
-    matrix = np.vstack([fit.slopes[:use, open_] * span, SHORT * np.eye(len(open_))])
-    side = np.concatenate([-fit.misses[:use], np.zeros(len(open_))])
+    weights = np.maximum(np.abs(fit.misses[:use]), 0.2) ** (power / 2 - 1)
+    matrix = np.vstack([weights[:, None] * fit.slopes[:use, open_] * span, SHORT * np.eye(len(open_))])
+    side = np.concatenate([-weights * fit.misses[:use], np.zeros(len(open_))])
     found = lsq_linear(matrix, side, bounds=(low, high), method="bvls", tol=1e-12, max_iter=200)
     lengths = fit.lengths.copy()
     lengths[open_] = np.clip(lengths[open_] + found.x * span, LOWER[open_], UPPER[open_])
     return lengths
 
 
-def _squares(fit: Fit, use: int) -> float:
-    return float(np.sum(fit.misses[:use] ** 2)) if fit.good else np.inf
+def _sum(fit: Fit, use: int, power: int) -> float:
+    return float(np.sum(np.abs(fit.misses[:use]) ** power)) if fit.good else np.inf
 
 
 def _standing(start: Array) -> Array:
