@@ -1,6 +1,8 @@
 """Studies: many cases of one question, run by an engine, answered as one labelled Dataset."""
 
 from rover_pin.analysis.mobility import mobility
+from rover_pin.analysis.search import search
+from rover_pin.analysis.sensitivity import sensitivity
 from rover_pin.analysis.study import Study
 
-__all__ = ["Study", "mobility"]
+__all__ = ["Study", "mobility", "search", "sensitivity"]

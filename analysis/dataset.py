@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from rover_pin.analysis.cases import Cases
 from rover_pin.analysis.found import Found, found_in
 from rover_pin.analysis.provenance import git_state, versions
 from rover_pin.analysis.rows import Columns
@@ -23,11 +24,12 @@ if TYPE_CHECKING:
 VARIED = "varied"
 
 
-def dataset(study: Study, columns: Columns) -> xr.Dataset:
-    """The Dataset of a study from all its rows, in memory."""
+def dataset(study: Study, columns: Columns, cases: Cases | None = None) -> xr.Dataset:
+    """The Dataset of a study from all its rows, in memory; `cases` where they are not those it draws."""
     job = study.plan.job
     found = found_in(columns)
-    block = Block(job.cases.drawer().run(0, len(job.cases)), columns)
+    drawn = job.cases.drawer().run(0, len(job.cases)) if cases is None else cases
+    block = Block(drawn, columns)
     form = schema(job.layout, block.cases, found)
     variables: dict[str, Any] = {}
     for each in form.variables:

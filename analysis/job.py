@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,6 +50,14 @@ class Job:
         return Runner(self)
 
 
+class Draws(Protocol):
+    """Whatever knows the cases by their numbers."""
+
+    def run(self, start: int, stop: int) -> Cases:
+        """The cases from `start` to before `stop`."""
+        ...
+
+
 class Runner:
     """Carries out parts of a job in this process.
 
@@ -57,10 +66,10 @@ class Runner:
     way it comes to them.
     """
 
-    def __init__(self, job: Job) -> None:
+    def __init__(self, job: Job, drawer: Draws | None = None) -> None:
         self.job = job
         self._rovers = Rovers(job.rover)
-        self._drawer = job.cases.drawer()
+        self._drawer: Draws = drawer or job.cases.drawer()
         self._start = 0
         self._drawn: Cases = self._drawer.run(0, 0)
 

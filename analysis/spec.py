@@ -18,6 +18,7 @@ from rover_pin.analysis.quantities import (
     Span,
     quantity,
 )
+from rover_pin.analysis.search_spec import SearchSpec
 from rover_pin.analysis.strict import Strict, checked
 from rover_pin.analysis.words import gravity, posture
 from rover_pin.analysis.yaml_file import read_mapping
@@ -162,6 +163,7 @@ class StudySpec(Strict):
     measures: Measures = CHEAP
     gravity: Gravity = 9.81
     payload: tuple[PayloadSpec, ...] = ()
+    search: SearchSpec | None = None
 
     @model_validator(mode="before")
     @classmethod

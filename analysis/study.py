@@ -191,6 +191,9 @@ class Study:
         from rover_pin.analysis.dataset import dataset
         from rover_pin.analysis.result import check_disk, save_result
 
+        if self.spec.search is not None:
+            cure = "run it with rover-pin search, or leave the entry out"
+            raise StudyError("asks for a search", file=self.file, element="search", cure=cure)
         if chunk is not None and chunk < 1:
             raise StudyError("must be at least 1", element="chunk", value=chunk)
         resources = Resources(workers, scheduler)

@@ -75,6 +75,30 @@ def spread(data: xr.Dataset, measure: str, count: int = 10) -> Spread:
     )
 
 
+def figure_spreads(data: xr.Dataset) -> dict[str, tuple[str, dict[int, float]]]:
+    """Unit and percentiles over the settled cases of how the rover stands and carries; tensions by track."""
+    tracks = [str(name) for name in data["track"].values] if "tension_n" in data else []
+    apart = {f"tension_n/{name}": data["tension_n"].isel(track=k, drop=True) for k, name in enumerate(tracks)}
+    names = [name for name in ("pitch_rad", "roll_rad", "touching", "load_spread") if name in data]
+    columns = _columns({**{name: data[name] for name in names}, **apart})
+    if not statuses(data).get("settled", 0):
+        return {}
+    return {
+        name: (str(columns[name].attrs.get("units", "")), _shares(columns, name)) for name in (*names, *apart)
+    }
+
+
+def _shares(data: xr.Dataset, name: str) -> dict[int, float]:
+    return _percentiles(data, name, sum(len(block) for block in _answers(data, name)))
+
+
+def _columns(columns: dict[str, xr.DataArray]) -> xr.Dataset:
+    """A Dataset of some columns; xarray is loaded where it is used."""
+    import xarray as xr
+
+    return xr.Dataset(columns)
+
+
 def largest_residuals(data: xr.Dataset) -> dict[Hashable, float]:
     """The largest of each residual over the settled cases; NaN where none settled."""
     names = ("equilibrium", "gap_m", "loop_m", "complementarity")

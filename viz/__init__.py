@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rover_pin.viz.browser import save_png as save_png
     from rover_pin.viz.mobility import plot_mobility as plot_mobility
+    from rover_pin.viz.page.search import save_search_page as save_search_page
+    from rover_pin.viz.page.sensitivity import save_sensitivity_page as save_sensitivity_page
     from rover_pin.viz.page.study import save_study_page as save_study_page
     from rover_pin.viz.page.study import worst_cases as worst_cases
     from rover_pin.viz.plots import plot_distributions as plot_distributions
@@ -27,6 +29,8 @@ _HOME = {
     "plot_mobility": "mobility",
     "save_html": "show",
     "save_png": "browser",
+    "save_search_page": "page.search",
+    "save_sensitivity_page": "page.sensitivity",
     "save_study_page": "page.study",
     "serve": "serve",
     "show": "show",

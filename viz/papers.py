@@ -56,6 +56,8 @@ def plot_chart(chart: Chart) -> Figure:
 
 
 def _draw_panel(axes: Axes, panel: Panel, *, titled: bool) -> None:
+    from matplotlib.ticker import MaxNLocator
+
     if titled:
         axes.set_title(panel.label, fontsize=8)
     else:
@@ -69,7 +71,7 @@ def _draw_panel(axes: Axes, panel: Panel, *, titled: bool) -> None:
     if any(curve.steps for curve in panel.curves):
         low, high = axes.get_ylim()
         axes.set_ylim(np.floor(low) - 0.3, np.ceil(high) + 0.3)
-        axes.yaxis.get_major_locator().set_params(integer=True)
+        axes.yaxis.set_major_locator(MaxNLocator(integer=True))
     if panel.marks or any(curve.label for curve in panel.curves):
         axes.legend(frameon=False, fontsize=7, handlelength=2.4)
 
@@ -79,8 +81,8 @@ def _draw_curve(axes: Axes, curve: Curve) -> None:
     look: dict[str, Any] = {"color": colour, "linewidth": 0.7 if curve.faint else 1.3}
     if len(curve.x) < 20:
         look |= {"marker": "o", "markersize": 2.5}
-    how = {"drawstyle": "steps-mid"} if curve.steps else {}
-    axes.plot(curve.x, curve.y, LINES[curve.style], label=curve.label or None, **look, **how)
+    look |= {"drawstyle": "steps-mid"} if curve.steps else {}
+    axes.plot(curve.x, curve.y, LINES[curve.style], label=curve.label or None, **look)
 
 
 def _draw_mark(axes: Axes, mark: Mark) -> None:
@@ -89,7 +91,7 @@ def _draw_mark(axes: Axes, mark: Mark) -> None:
         axes.axhline(mark.y, linestyle=":", **look)
     elif mark.y is None and mark.x is not None:
         axes.axvline(mark.x, linestyle=":", **look)
-    else:
+    elif mark.x is not None and mark.y is not None:
         axes.plot([mark.x], [mark.y], "x", markersize=5, **look)
 
 

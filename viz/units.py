@@ -28,9 +28,23 @@ TITLES = {
     "region": "Support region",
     "slack": "Robust slack",
     "feasible": "Feasible region",
+    "touching": "Wheels in contact",
+    "load_spread": "Load spread",
 }
 
-FIRST = ("tip", "polygon", "force_angle", "energy", "zmp", "friction", "torque", "clearance", "loads")
+FIRST = (
+    "tip",
+    "polygon",
+    "force_angle",
+    "energy",
+    "zmp",
+    "friction",
+    "torque",
+    "clearance",
+    "loads",
+    "load_spread",
+    "touching",
+)
 
 
 def ranked(measures: Iterable[str]) -> list[str]:

@@ -1,6 +1,7 @@
 """Papers: each one's figures beside ours, with a verdict.
 
-A module or folder here with a `PAPER` is a paper of that name. Papers keep their own axes, signs and units here.
+A module or folder here with a `PAPER` is a paper of that name. Papers keep their own axes, signs and units
+here.
 """
 
 from __future__ import annotations

@@ -94,7 +94,14 @@ def _percent(ours: Value, other: Value) -> float | None:
 
 
 def fitted(
-    quantity: str, unit: str, paper: float, ours: float, *, where: str, measured: float | None = None, why: str
+    quantity: str,
+    unit: str,
+    paper: float,
+    ours: float,
+    *,
+    where: str,
+    measured: float | None = None,
+    why: str,
 ) -> Finding:
     """A value that what we compute with was identified from: `in sample` whatever comes out."""
     return Finding(quantity, unit, paper, _known(ours), IN_SAMPLE, why, where, measured)

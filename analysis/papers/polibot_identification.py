@@ -2,9 +2,10 @@
 
     python -m rover_pin.analysis.papers.polibot_identification [--starts N] [--seed S] [--no-intervals]
 
-The paper draws the suspension (Fig. A.1) without lengths in its text. Its model's results are there: Tables 6 to 8, and
-what it says of Figs 13, 14, 17 and 18. From starts drawn anywhere between wide bounds, lengths, angles and radii are
-fitted to them; many quite different geometries meet every number to its last digit. `polibot_half` has one of them.
+The paper draws the suspension (Fig. A.1) without lengths in its text. Its model's results are there: Tables
+6 to 8, and what it says of Figs 13, 14, 17 and 18. From starts drawn anywhere between wide bounds, lengths,
+angles and radii are fitted to them; many quite different geometries meet every number to its last digit.
+`polibot_half` has one of them.
 """
 
 from __future__ import annotations
@@ -45,8 +46,8 @@ class Identification:
         near: where a search from the bundled geometry ends.
         by_tables: what Tables 6 to 8 alone fix about `bundled`, to first order.
         by_all: the same with the statements.
-        intervals: by length, mm or deg: values between which geometries were found that meet every target; the true
-            interval may be wider. Empty where they were not asked for.
+        intervals: by length, mm or deg: values between which geometries were found that meet every target;
+            the true interval may be wider. Empty where they were not asked for.
     """
 
     tried: int
@@ -65,11 +66,6 @@ class Identification:
             ValueError: no search found one.
         """
         return min(self.fits, key=lambda fit: worst(fit, len(TARGETS)))
-
-    @property
-    def apart(self) -> dict[str, float]:
-        """By length, mm or deg: between the least and the greatest among the fits and the bundled geometry."""
-        return {LENGTHS[k]: float(np.ptp([fit.lengths[k] for fit in (*self.fits, self.bundled)])) for k in FREE}
 
 
 def identify(
@@ -121,11 +117,11 @@ def as_parameters(lengths: Array) -> dict[str, float]:
 
 
 def _intervals(fits: Sequence[Fit], tell: Progress) -> dict[str, tuple[float, float]]:
-    """Each length driven both ways, from the fit that is furthest already; ends found for one count for all."""
+    """Each length driven both ways, from the fit that is furthest already."""
     known = list(fits)
     for k in FREE:
         for sign in (-1.0, 1.0):
-            known.append(reach(max(known, key=lambda fit: sign * fit.lengths[k]), int(k), sign))  # noqa: B023
+            known.append(reach(max(known, key=lambda fit: sign * fit.lengths[k]), int(k), sign))
         tell(f"{LENGTHS[k]}: {known[-2].lengths[k]:.4g} to {known[-1].lengths[k]:.4g}")
     table = np.array([fit.lengths for fit in known])
     return {LENGTHS[k]: (float(table[:, k].min()), float(table[:, k].max())) for k in FREE}
@@ -150,10 +146,8 @@ def _lengths(found: Identification) -> list[str]:
         if name in found.intervals:
             least, most = found.intervals[name]
             ends, share = f"{least:.2f} to {most:.2f}", f"{100 * (most - least) / (high - low):.0f} %"
-        lines.append(
-            f"{name:<11} {f'{low:g}-{high:g}':>10} {found.best.lengths[k]:9.3f} {found.bundled.lengths[k]:9.3f}"
-            f" {ends:>21} {share:>16}"
-        )
+        values = f"{found.best.lengths[k]:9.3f} {found.bundled.lengths[k]:9.3f}"
+        lines.append(f"{name:<11} {f'{low:g}-{high:g}':>10} {values} {ends:>21} {share:>16}")
     lines.append("mm and deg; an interval is what was reached, the true one may be wider")
     return lines
 
@@ -171,8 +165,8 @@ def _targets(found: Identification) -> list[str]:
     moved = np.abs(found.near.lengths - found.bundled.lengths)
     k = int(np.argmax(moved))
     lines.append(
-        f"the bundled geometry misses one by {miss:.1f} times what it leaves open, at most; a search from it ends at"
-        f" {left:.1f}, nothing moved by more than {moved[k]:.2g} ({LENGTHS[k]})"
+        f"the bundled geometry misses one by {miss:.1f} times what it leaves open, at most; a search from it"
+        f" ends at {left:.2f}, nothing moved by more than {moved[k]:.2g} ({LENGTHS[k]})"
     )
     return lines
 
@@ -182,8 +176,8 @@ def _fixed(found: Identification) -> list[str]:
     for name, these in (("Tables 6 to 8", found.by_tables), ("with the statements", found.by_all)):
         count = len(these.names)
         lines.append(
-            f"{name}: of {count} directions {these.fixed} are fixed to better than 1 mm (or deg), {count - these.fixed}"
-            f" are not; {count - these.rank} of these move nothing to first order"
+            f"{name}: of {count} directions {these.fixed} are fixed to better than 1 mm (or deg),"
+            f" {count - these.fixed} are not; {count - these.rank} of these move nothing to first order"
         )
         lines.append("  singular values: " + " ".join(f"{value:.3g}" for value in these.values[: these.rank]))
     lines.append("least fixed directions, with the statements:")

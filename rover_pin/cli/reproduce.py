@@ -33,7 +33,9 @@ def reproduce(
 
     if paper is None:
         if html or png:
-            raise InputError("a page or pictures of which paper", cure="rover-pin reproduce PAPER --html FILE")
+            raise InputError(
+                "a page or pictures of which paper", cure="rover-pin reproduce PAPER --html FILE"
+            )
         print_papers(as_json=json)
         return 0
     found = find(paper)

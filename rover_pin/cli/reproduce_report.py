@@ -58,8 +58,8 @@ def _print_group(group: Sequence[Finding]) -> None:
     for each in group:
         own = (figure(each.measured), _percent(each.error_to_measured_percent)) if measured else ()
         table.add_row(
-            each.quantity, each.unit, _value(each.paper), _value(each.ours), _percent(each.error_percent), *own,
-            each.verdict,
+            each.quantity, each.unit, _value(each.paper), _value(each.ours), _percent(each.error_percent),
+            *own, each.verdict,
         )  # fmt: skip
     print_table(table)
     for text, names in _reasons(group).items():

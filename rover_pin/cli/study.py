@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rover_pin.cli.options import Json
-from rover_pin.errors import InputError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -17,6 +16,8 @@ if TYPE_CHECKING:
     from rover_pin.analysis.study import Study
 
 INTERRUPTED = 130
+DRAWN = 50
+"""Designs at most that a page draws each in its own shape."""
 
 
 def study(
@@ -41,15 +42,12 @@ def study(
     from rover_pin.analysis.summary import statuses
     from rover_pin.cli.output import announce_compilation, aside, check_outputs, print_json
     from rover_pin.cli.progress import progress_bar
+    from rover_pin.cli.sensitivity_report import print_slopes, slopes_object
     from rover_pin.cli.study_report import print_study, study_object
 
     path = out or Path(f"{spec.stem if spec else 'study'}.nc")
     check_outputs(path, html)
     asked = Study.default() if spec is None else Study.from_file(spec)
-    if html is not None and not asked.plan.job.layout.margins:
-        raise InputError(
-            "a page needs a measure", element="--html", cure="ask for tip, say, in the study's measures"
-        )
     started = time.perf_counter()
     try:
         announce_compilation(batch=True)
@@ -70,23 +68,37 @@ def study(
             aside("interrupted before anything was finished")
         return INTERRUPTED
     seconds = time.perf_counter() - started
-    if html is not None:
-        _save_page(asked, data, html)
     ended = statuses(data)
+    slopes = _slopes(asked, data)
+    if html is not None:
+        _save_page(asked, data, slopes, html)
     if json:
-        print_json(study_object(data, ended, path, html, seconds))
+        print_json({**study_object(data, ended, path, html, seconds), **slopes_object(slopes)})
     else:
         print_study(data, ended, seconds)
+        print_slopes(slopes)
     for written in (path, html):
         if written is not None:
             aside(f"wrote {written}")
     return 0 if ended.get("settled") else 1
 
 
-def _save_page(asked: Study, data: xr.Dataset, html: Path) -> None:
-    """The study's page, its worst cases settled once more for their contacts."""
+def _slopes(asked: Study, data: xr.Dataset) -> xr.Dataset | None:
+    """The sensitivities, where the study takes them and its nominal design settles."""
+    from rover_pin.analysis.sensitivity import sensitivity
+
+    wanted = asked.spec.cases.sampler == "sensitivity" and str(data["status"].values[0]) == "settled"
+    return sensitivity(data) if wanted else None
+
+
+def _save_page(asked: Study, data: xr.Dataset, slopes: xr.Dataset | None, html: Path) -> None:
+    """The study's page; its worst cases, or each design of a small sweep, settled anew for their contacts."""
     from rover_pin import viz
 
-    stances = {case: asked.stance(case) for case in viz.worst_cases(data)}
+    if slopes is not None:
+        viz.save_sensitivity_page(slopes, html)
+        return
+    each = len(asked) <= DRAWN and asked.plan.job.cases.questions.parameters
+    stances = {case: asked.stance(case) for case in (range(len(asked)) if each else viz.worst_cases(data))}
     ready = asked.plan
     viz.save_study_page(data, html, rover=ready.rover, terrain=ready.job.terrain, stances=stances)

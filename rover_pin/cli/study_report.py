@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rover_pin.analysis.summary import SHARES, largest_residuals, measures, spread
+from rover_pin.analysis.summary import SHARES, figure_spreads, largest_residuals, measures, spread
 from rover_pin.cli.output import figure, fixed, line, new_table, print_table
 
 if TYPE_CHECKING:
@@ -36,6 +36,10 @@ def study_object(
             }
             for name, each in spreads.items()
         },
+        "figures": {
+            name: {"unit": unit, "percentiles": shares}
+            for name, (unit, shares) in figure_spreads(data).items()
+        },
         "residuals": largest_residuals(data),
         "seconds": seconds,
         "out": str(out),
@@ -49,8 +53,11 @@ def print_study(data: xr.Dataset, ended: Mapping[str, int], seconds: float) -> N
     line(f"{data.attrs['title']}: {count} cases in {seconds:.1f} s")
     line("  ".join(f"{word} {_share(number, count)}" for word, number in ended.items()))
     line(f"answered by the plain path: {_share(int(data.attrs['plain_path_cases']), count)}")
+    if "settled" not in ended:
+        return
+    _print_figures(data)
     names = measures(data)
-    if not names or "settled" not in ended:
+    if not names:
         return
     table = new_table(
         "", "measure", "unit", "better", *(f"{share} %" for share in SHARES), "worst case", left=3
@@ -64,6 +71,16 @@ def print_study(data: xr.Dataset, ended: Mapping[str, int], seconds: float) -> N
     print_table(table)
     _print_worst(data, "tip" if "tip" in names else names[0])
     line("largest residuals: " + "  ".join(f"{n} {v:.1e}" for n, v in largest_residuals(data).items()))
+
+
+def _print_figures(data: xr.Dataset) -> None:
+    """How the rover stands and carries."""
+    table = new_table("", "figure", "unit", *(f"{share} %" for share in SHARES), left=2)
+    for name, (unit, shares) in figure_spreads(data).items():
+        turned = 180.0 / math.pi if unit == "rad" else 1.0
+        shown = name.replace("_rad", "") if unit == "rad" else name
+        table.add_row(shown, "deg" if unit == "rad" else unit, *(figure(turned * v) for v in shares.values()))
+    print_table(table)
 
 
 def _share(number: int, count: int) -> str:

@@ -1,4 +1,4 @@
-"""Couplings of many designs: `<mimic>` numbers may vary, the sidecar's do not."""
+"""Couplings of many designs."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rover_pin.compiled.design_rows import Row, Sheet, read_row, refs
+from rover_pin.compiled.design_rows import Row, Sheet, Stated, read_row, refs
 from rover_pin.compiled.design_tree import Walked
 from rover_pin.description.prepare import Prepared
 from rover_pin.description.sidecar import Sidecar
@@ -37,11 +37,13 @@ class Coupled:
         return bool(refs([*self.joints.values(), self.offset]))
 
 
-def read_couplings(made: Prepared, traced: Tree, sidecar: Sidecar, trace: Trace) -> tuple[Coupled, ...]:
+def read_couplings(
+    made: Prepared, traced: Tree, sidecar: Sidecar, trace: Trace, formulas: Stated
+) -> tuple[Coupled, ...]:
     """Every coupling before the loader drops any.
 
     Raises:
-        UntraceableError: a varied mimic that shares its joints with other couplings, round a circle or not.
+        UntraceableError: a varied one that shares its joints with other couplings, round a circle or not.
     """
     stated: dict[str, tuple[Row, Row]] = {}
     for joint, numbers in _stated(traced, trace):
@@ -55,9 +57,13 @@ def read_couplings(made: Prepared, traced: Tree, sidecar: Sidecar, trace: Trace)
         ratio, offset = stated[mimic.joint]
         of = {} if mimic.multiplier == 0.0 else {mimic.of: _minus(ratio, trace)}
         found.append(Coupled(f"mimic_{mimic.joint}", {mimic.joint: (1.0,), **of}, offset, ratio))
-    for spec in sidecar.couplings:
-        joints: dict[str, Row] = {name: (float(c),) for name, c in spec.joints.items()}
-        found.append(Coupled(spec.name, joints, (float(spec.offset),), None))
+    for i, spec in enumerate(sidecar.couplings):
+        joints: dict[str, Row] = {
+            name: (formulas.get(("couplings", i, "joints", name), float(c)),)
+            for name, c in spec.joints.items()
+        }
+        right = formulas.get(("couplings", i, "offset"), float(spec.offset))
+        found.append(Coupled(spec.name, joints, (right,), None))
     for coupled in found:
         others = [other for other in found if other is not coupled]
         if coupled.varies and _meet(set(coupled.joints) - set(made.held), others, set(made.held)):

@@ -12,18 +12,16 @@ from rover_pin.compiled.design_bodies import outline, weigh
 from rover_pin.compiled.design_couplings import Coupled, coupling_rows, read_couplings
 from rover_pin.compiled.design_parts import belly, loops, struts, touching, wheel_links
 from rover_pin.compiled.design_plan import Plan, Reader
-from rover_pin.compiled.design_rows import Flags, Sheet, refs
+from rover_pin.compiled.design_rows import Flags, Sheet, Stated, refs
 from rover_pin.compiled.design_scan import Scanned, finite_nodes, scan
-from rover_pin.compiled.design_sidecar import check_sizes, is_followed, sizes, springs, tracks
+from rover_pin.compiled.design_sidecar import check_numbers, read_formulas, sizes, springs
+from rover_pin.compiled.design_tracks import tracks
 from rover_pin.compiled.design_tree import Walked, walk_tree
 from rover_pin.compiled.machine import Machine
-from rover_pin.description.formulas import Formula, Number, Path
 from rover_pin.description.notes import Notes
 from rover_pin.description.prepare import prepare
-from rover_pin.description.reading import dotted
-from rover_pin.description.recipe import Recipe
-from rover_pin.description.sidecar import Sidecar, formulas_of, read_sidecar
-from rover_pin.description.trace import Trace, UntraceableError
+from rover_pin.description.sidecar import Sidecar, read_sidecar
+from rover_pin.description.trace import Trace
 from rover_pin.description.trace_expand import TracedText
 from rover_pin.description.trace_values import evaluate
 from rover_pin.description.tree import parse
@@ -57,7 +55,7 @@ class Blueprint:
         plan: the tree.
         couplings: before the loader drops any.
         scanned: what else the loader looks at.
-        formulas: of the sidecar, that hang on a parameter that varies.
+        stated: the sidecar's formulas.
     """
 
     rover: Rover
@@ -67,7 +65,7 @@ class Blueprint:
     plan: Plan
     couplings: tuple[Coupled, ...]
     scanned: Scanned
-    formulas: Mapping[Path, Formula]
+    stated: Stated
 
     def make(self, parameters: Mapping[str, Array]) -> Made:
         """Machines from (n,) values of every varied parameter, n > 0."""
@@ -79,13 +77,10 @@ class Blueprint:
             name: np.where(inside, array, self.rover.parameters[name]) for name, array in parameters.items()
         }
         with np.errstate(all="ignore"):
-            nodes = evaluate(self.trace, usable, self._wanted(), finite_nodes(self.scanned))
-            known: dict[str, Number] = {**self.rover.parameters, **usable}
-            stated = {path: np.asarray(formula.value(known)) for path, formula in self.formulas.items()}
-            sheet = Sheet(nodes, stated)
-            for stated_numbers in stated.values():
-                sheet.require(np.isfinite(stated_numbers))
-            check_sizes(sheet)
+            formulas = refs([tuple(self.stated.values())])
+            finite = finite_nodes(self.scanned) | formulas
+            sheet = Sheet(evaluate(self.trace, usable, self._wanted() | formulas, finite), self.stated)
+            check_numbers(self.stated, sheet)
             sheet.require(inside)
             self.scanned.check(sheet)
             machine = self._machine(walk_tree(self.plan, sheet), sheet)
@@ -114,11 +109,10 @@ class Blueprint:
         )
         centers, shape_axes = touching(self.rover, self.sidecar, walked, sheet)
         belly_joints, points = belly(self.sidecar, walked, sheet)
-        wheels = wheel_links(self.rover, self.sidecar, walked)
+        wheels = wheel_links(self.rover, self.sidecar, walked, sheet)
         outline_joints, corners = outline(self.plan, walked, wheels, (belly_joints, points), sheet)
         rows, offsets = coupling_rows(self.couplings, self.rover, walked, sheet)
-        loop_rotations, loop_translations, loop_lengths = loops(self.sidecar, walked, sheet)
-        return self.nominal._replace(
+        made = self.nominal._replace(
             **self._joints(walked, sheet),
             outline_joints=outline_joints,
             belly_joints=belly_joints,
@@ -132,12 +126,10 @@ class Blueprint:
             outline=corners,
             **springs(self.sidecar, sheet),
             **sizes(self.sidecar, sheet),
-            **tracks(self.rover, self.sidecar, centers, sheet),
-            loop_rotations=loop_rotations,
-            loop_translations=loop_translations,
-            loop_lengths=loop_lengths,
+            **loops(self.sidecar, walked, sheet),
             strut_translations=struts(self.sidecar, walked, sheet),
         )
+        return made._replace(**tracks(self.rover, self.sidecar, made, walked, sheet))
 
     def _joints(self, walked: Walked, sheet: Sheet) -> dict[str, Any]:
         """The arrays over joints and degrees of freedom."""
@@ -185,25 +177,7 @@ def read_blueprint(rover: Rover, nominal: Machine, traced: TracedText) -> Bluepr
     made = prepare(recipe, sidecar, Notes())
     tree = parse(traced.text, str(recipe.source))
     scanned = scan(tree, trace)
-    plan = Reader(rover, made, tree, sidecar, trace).plan()
-    couplings = read_couplings(made, tree, sidecar, trace)
-    formulas = _varied_formulas(recipe, set(trace.names))
-    return Blueprint(rover, nominal, sidecar, trace, plan, couplings, scanned, formulas)
-
-
-def _varied_formulas(recipe: Recipe, names: set[str]) -> dict[Path, Formula]:
-    """The sidecar's formulas that hang on a parameter that varies.
-
-    Raises:
-        UntraceableError: one in a place from which no array of a design is made.
-    """
-    if recipe.sidecar_text is None:
-        return {}
-    found = formulas_of(recipe.sidecar_text, recipe.sidecar_path)
-    varied = {path: formula for path, formula in found.items() if formula.names & names}
-    for path in varied:
-        if not is_followed(path):
-            raise UntraceableError(
-                "designs do not follow a formula here", file=recipe.sidecar_path, element=dotted(path)
-            )
-    return varied
+    stated = read_formulas(recipe, trace)
+    plan = Reader(rover, made, tree, sidecar, trace, stated).plan()
+    couplings = read_couplings(made, tree, sidecar, trace, stated)
+    return Blueprint(rover, nominal, sidecar, trace, plan, couplings, scanned, stated)

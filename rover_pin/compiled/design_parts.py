@@ -2,12 +2,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pinocchio as pin
 
-from rover_pin.compiled.design_places import HERE, Place, behind, cross_norm, moved, norm, product, turned
+from rover_pin.compiled.design_places import (
+    HERE,
+    Place,
+    across,
+    behind,
+    cross_norm,
+    moved,
+    norm,
+    product,
+    turn_of,
+    turned,
+)
 from rover_pin.compiled.design_rows import Sheet
 from rover_pin.compiled.design_tree import Seat, Walked, unit
 from rover_pin.compiled.machine import FIRST_JOINT, Integers, integers
@@ -36,11 +47,13 @@ def seat_of(walked: Walked, name: str) -> Seat:
     return found
 
 
-def wheel_links(rover: Rover, sidecar: Sidecar, walked: Walked) -> frozenset[str]:
-    """Links whose collision shapes are wheels, as `Placer` finds them."""
+def wheel_links(rover: Rover, sidecar: Sidecar, walked: Walked, sheet: Sheet) -> frozenset[str]:
+    """Links whose collision shapes are wheels, as `Placer` finds them; nominal ones."""
     links: set[str] = set()
-    for spec, wheel in zip(sidecar.wheels, rover.wheels, strict=True):
+    for i, (spec, wheel) in enumerate(zip(sidecar.wheels, rover.wheels, strict=True)):
         if wheel.drive is None:
+            away = np.any(sheet.numbers(spec.center, "wheels", i, "center") != 0.0, axis=1)
+            sheet.require(away == any(spec.center))
             links |= set() if any(spec.center) else {wheel.link}
         else:
             turning = rover.model.getJointId(wheel.drive)
@@ -70,8 +83,8 @@ def _wheel(spec: WheelSpec, i: int, wheel: Wheel, walked: Walked, sheet: Sheet) 
     turning = None if joint is None or joint.sliding else joint.axis
     axis = turning
     if spec.axis is not None or axis is None:
-        stated = np.array([spec.axis])
-        axis = turned(seat.place[0], stated / np.linalg.norm(stated))
+        stated = sheet.numbers(spec.axis or (0.0, 0.0, 1.0), "wheels", i, "axis")
+        axis = turned(seat.place[0], unit(sheet, stated))
     drives = np.zeros(1, dtype=bool)
     if turning is not None:
         drives = (cross_norm(turning, axis) < PARALLEL) & (cross_norm(turning, center) < ON_AXIS)
@@ -104,14 +117,19 @@ def struts(sidecar: Sidecar, walked: Walked, sheet: Sheet) -> Array:
     return sheet.stack([sheet.stack(pair, 3) for pair in ends], 2, 3)
 
 
-def loops(sidecar: Sidecar, walked: Walked, sheet: Sheet) -> tuple[Array, Array, Array]:
-    """(n, l, 2, 3, 3) rotations, (n, l, 2, 3) m places and (n, l) m lengths of loops' frames."""
-    rotations, places, lengths = [], [], []
+def loops(sidecar: Sidecar, walked: Walked, sheet: Sheet) -> dict[str, Any]:
+    """Loops' frames, lengths and axes."""
+    rotations, places, lengths, axes = [], [], [], []
     zero = _at_zero(walked) if any(spec.at == "zero" for spec in sidecar.loops) else {}
     for i, spec in enumerate(sidecar.loops):
+        stated: Sequence[tuple[str | int, ...]] = (("frames", 0), ("frames", 1))
+        if spec.type == "level":
+            stated = (("frame",), ("frame",))
         first, second = (
-            _frame(walked, sheet, frame, "loops", i, "frames", k) for k, frame in enumerate(spec.frames)
+            _frame(walked, sheet, frame, "loops", i, *path)
+            for frame, path in zip(spec.frames, stated, strict=True)
         )
+        axis = sheet.numbers(spec.axis or (0.0, 0.0, 1.0), "loops", i, "axis")
         length = sheet.number(spec.length or 0.0, "loops", i, "length")
         place = second.place
         if spec.at == "zero":
@@ -123,14 +141,20 @@ def loops(sidecar: Sidecar, walked: Walked, sheet: Sheet) -> tuple[Array, Array,
         rotations.append(sheet.stack([first.place[0], place[0]], 3, 3))
         places.append(sheet.stack([first.place[1], place[1]], 3))
         lengths.append(length)
-    return sheet.stack(rotations, 2, 3, 3), sheet.stack(places, 2, 3), sheet.stack(lengths)
+        axes.append(across(unit(sheet, axis)))
+    return {
+        "loop_rotations": sheet.stack(rotations, 2, 3, 3),
+        "loop_translations": sheet.stack(places, 2, 3),
+        "loop_lengths": sheet.stack(lengths),
+        "loop_across": sheet.stack(axes, 3, 3),
+    }
 
 
 def _frame(walked: Walked, sheet: Sheet, spec: str | FrameSpec, *path: str | int) -> Seat:
     if isinstance(spec, str):
         return seat_of(walked, spec)
     seat = seat_of(walked, spec.link)
-    turn = np.asarray(pin.rpy.rpyToMatrix(*spec.rpy), dtype=np.float64)[None]
+    turn = turn_of(sheet, sheet.numbers(spec.rpy, *path, "rpy"))
     return Seat(seat.joint, behind(seat.place, (turn, sheet.numbers(spec.xyz, *path, "xyz"))))
 
 

@@ -58,7 +58,12 @@ def origin_of(sheet: Sheet, xyz: Row, rpy: Row) -> Place:
     """The place of a URDF's `<origin>`, R = Rz(yaw) Ry(pitch) Rx(roll), by a quaternion as urdfdom goes."""
     if not any(isinstance(entry, Ref) or entry != 0.0 for entry in rpy):
         return HERE[0], sheet.row(xyz)
-    half = sheet.row(rpy) / 2.0
+    return turn_of(sheet, sheet.row(rpy)), sheet.row(xyz)
+
+
+def turn_of(sheet: Sheet, rpy: Array) -> Array:
+    """(n, 3, 3) R = Rz(yaw) Ry(pitch) Rx(roll) of (n, 3) rad."""
+    half = rpy / 2.0
     (sr, sp, sy), (cr, cp, cy) = (
         [sheet.each(function, half[:, i]) for i in range(3)] for function in (math.sin, math.cos)
     )
@@ -67,7 +72,7 @@ def origin_of(sheet: Sheet, xyz: Row, rpy: Row) -> Place:
         sr * cp * cy - cr * sp * sy,
         cr * sp * cy + sr * cp * sy,
         cr * cp * sy - sr * sp * cy,
-    ), sheet.row(xyz)
+    )
 
 
 def about(sheet: Sheet, axis: Array, angle: Array) -> Array:
@@ -92,6 +97,14 @@ def from_quaternion(w: Array, x: Array, y: Array, z: Array) -> Array:
     rotation[:, 2, 1] = tz * y + tx * w
     rotation[:, 2, 2] = 1.0 - (tx * x + ty * y)
     return rotation
+
+
+def across(axis: Array) -> Array:
+    """(n, 3, 3) columns: two unit vectors across unit axes (n, 3), and those axes, as in loops and tracks."""
+    helper = np.eye(3)[np.argmin(np.abs(axis), axis=1)]
+    first = np.cross(axis, helper)
+    first = first / norm(first)[:, None]
+    return np.stack([first, np.cross(axis, first), axis], axis=2)
 
 
 def norm(vector: Array) -> Array:

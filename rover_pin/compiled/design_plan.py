@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rover_pin.compiled.design_rows import Row, read_row
+from rover_pin.compiled.design_rows import Row, Stated, read_row, stated_row
 from rover_pin.description.prepare import Prepared
 from rover_pin.description.sidecar import Sidecar
 from rover_pin.description.trace import Trace
@@ -111,6 +111,7 @@ class Reader:
         traced: the URDF with tokens, as xacro gave it.
         sidecar: corrects it.
         trace: what the tokens stand for.
+        stated: the sidecar's formulas.
     """
 
     rover: Rover
@@ -118,6 +119,7 @@ class Reader:
     traced: Tree
     sidecar: Sidecar
     trace: Trace
+    stated: Stated
 
     def plan(self) -> Plan:
         """The plan.
@@ -149,12 +151,13 @@ class Reader:
         inertial = link.find("inertial")
         mass = None if inertial is None else inertial.find("mass")
         center = None if inertial is None else inertial.find("origin")
-        shapes = [self._shape(e, owner) for e in link.findall("collision")]
-        return Link(
-            self._row(mass, "value", "0", owner),
-            self._row(center, "xyz", "0 0 0", owner),
-            tuple(shape for shape in shapes if shape is not None),
-        )
+        found = [self._shape(e, owner) for e in link.findall("collision")]
+        shapes = tuple(shape for shape in found if shape is not None)
+        spec = self.sidecar.inertials.get(name)
+        if spec is not None:
+            kg = self.stated.get(("inertials", name, "mass"), float(spec.mass))
+            return Link((kg,), stated_row(self.stated, spec.com, "inertials", name, "com"), shapes)
+        return Link(self._row(mass, "value", "0", owner), self._row(center, "xyz", "0 0 0", owner), shapes)
 
     def _shape(self, element: Element, owner: str) -> Shape | None:
         found = element.find("geometry/*")
@@ -178,9 +181,10 @@ class Reader:
         axis: Row | None = None
         stops: Stops | None = None
         if freed is not None:
-            axis = tuple(map(float, freed.axis))
+            axis = stated_row(self.stated, freed.axis, "free", name, "axis")
             if freed.limits is not None and kind != "continuous":
-                stops = Stops((float(freed.limits[0]),), (float(freed.limits[1]),))
+                low, high = stated_row(self.stated, freed.limits, "free", name, "limits")
+                stops = Stops((low,), (high,))
         elif kind in MOVING:
             axis = self._row(joint.find("axis"), "xyz", "1 0 0", owner)
             stops = None if kind == "continuous" else self._stops(joint, owner)

@@ -15,8 +15,12 @@ from rover_pin.description.trace_values import Values, each
 from rover_pin.numerics import Array
 
 Flags = NDArray[np.bool_]
-Row = tuple[float | Ref, ...]
+Entry = float | Ref
+Row = tuple[Entry, ...]
 """Numbers of one attribute: constants, and nodes of the trace."""
+
+Stated = Mapping[tuple[str | int, ...], Entry]
+"""Numbers of the sidecar that are formulas of parameters that vary, by where they stand in it."""
 
 _SIGNED = re.compile(rf"([+-]?)({TOKEN.pattern})")
 
@@ -45,6 +49,11 @@ def read_row(text: str, trace: Trace, element: str) -> Row:
     return tuple(row)
 
 
+def stated_row(stated: Stated, nominal: Sequence[float], *path: str | int) -> Row:
+    """A list of numbers of the sidecar; nominal those that no formula makes vary."""
+    return tuple(stated.get((*path, k), float(value)) for k, value in enumerate(nominal))
+
+
 def refs(rows: Iterable[Row]) -> set[int]:
     """Nodes that rows are made of."""
     return {entry.index for row in rows for entry in row if isinstance(entry, Ref)}
@@ -62,12 +71,12 @@ class Sheet:
 
     Attributes:
         values: the trace's nodes.
-        stated: (n,) or (1,) values of the sidecar's formulas, by where they stand in it.
+        stated: the sidecar's formulas.
         valid: (n,).
     """
 
     values: Values
-    stated: Mapping[tuple[str | int, ...], Array] = field(default_factory=dict)
+    stated: Stated = field(default_factory=dict)
     valid: Flags = field(init=False)
 
     def __post_init__(self) -> None:
@@ -85,12 +94,11 @@ class Sheet:
 
     def number(self, nominal: float, *path: str | int) -> Array:
         """(n,) or (1,): a number of the sidecar, nominal unless it is a formula there."""
-        return self.stated.get(path, np.array([nominal]))
+        return self.row((self.stated.get(path, float(nominal)),))[:, 0]
 
     def numbers(self, nominal: Sequence[float], *path: str | int) -> Array:
         """(n, k) or (1, k): a list of numbers of the sidecar."""
-        parts = [self.number(float(value), *path, k) for k, value in enumerate(nominal)]
-        return np.stack(np.broadcast_arrays(*parts), axis=1)
+        return self.row(stated_row(self.stated, nominal, *path))
 
     def require(self, good: Flags) -> None:
         """Leave to the loader designs that are not good: (n,) or (1,)."""

@@ -1,43 +1,81 @@
-"""Springs, sizes of wheels and tracks of many designs: numbers that stand in the sidecar alone."""
+"""Numbers that stand in the sidecar alone, of many designs: formulas, springs, sizes of wheels and feet."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
-from rover_pin.compiled.design_rows import Sheet
-from rover_pin.description.sidecar import Sidecar
+from rover_pin.compiled.design_rows import Entry, Sheet, Stated
+from rover_pin.description.formulas import Number, Path
+from rover_pin.description.reading import dotted
+from rover_pin.description.recipe import Recipe
+from rover_pin.description.sidecar import Sidecar, formulas_of
+from rover_pin.description.trace import Ref, Trace, Traced, UntraceableError
 from rover_pin.mechanism import FrameSpringSpec, JointSpringSpec
-from rover_pin.mechanism.track import PulleySpec, WrapSpec
-from rover_pin.numerics import Array
 
-if TYPE_CHECKING:
-    from rover_pin.description.formulas import Path
-    from rover_pin.rover import Rover
+_FOLLOWED = (
+    "springs.stiffness", "springs.preload", "springs.rest", "springs.length_max", "springs.frames.xyz",
+    "springs.frames.rpy", "loops.length", "loops.axis", "loops.frames.xyz", "loops.frames.rpy",
+    "loops.frame.xyz", "loops.frame.rpy", "couplings.joints.*", "couplings.offset", "free.*.axis",
+    "free.*.limits", "inertials.*.mass", "inertials.*.com", "inertials.*.inertia", "wheels.center",
+    "wheels.axis", "wheels.radius", "wheels.width", "wheels.tread", "wheels.friction", "contacts.center",
+    "contacts.radius", "contacts.friction", "belly.point", "tracks.length", "tracks.wheels.radius",
+    "tracks.wheels.center", "tracks.wheels.axis",
+)  # fmt: skip
+"""Places of the sidecar whose formulas designs follow, without indices; `*` is any name."""
 
-_FOLLOWED = {
-    ("springs", "stiffness"), ("springs", "preload"), ("springs", "rest"), ("springs", "length_max"),
-    ("springs", "frames", "xyz"), ("loops", "length"), ("loops", "frames", "xyz"), ("wheels", "center"),
-    ("wheels", "radius"), ("wheels", "width"), ("wheels", "tread"), ("contacts", "center"),
-    ("contacts", "radius"), ("belly", "point"), ("tracks", "length"), ("tracks", "wheels", "radius"),
-}  # fmt: skip
-"""Places of the sidecar whose formulas designs follow, without indices."""
+_ABOVE_ZERO = ("radius", "length", "length_max")
+_NOT_BELOW = ("radius", "width", "tread", "stiffness", "friction", "mass")
 
 
-def is_followed(path: Path) -> bool:
+def read_formulas(recipe: Recipe, trace: Trace) -> dict[Path, Entry]:
+    """The sidecar's formulas that hang on a parameter that varies, put on the trace.
+
+    Raises:
+        UntraceableError: one in a place from which no array of a design is made, or that cannot be followed.
+    """
+    if recipe.sidecar_text is None:
+        return {}
+    varied = {name: trace.parameter(name, recipe.parameters[name]) for name in trace.names}
+    known: dict[str, Number] = {**recipe.parameters, **varied}
+    entries: dict[Path, Entry] = {}
+    for path, formula in formulas_of(recipe.sidecar_text, recipe.sidecar_path).items():
+        if not formula.names & varied.keys():
+            continue
+        if not _is_followed(path):
+            raise UntraceableError(
+                "designs do not follow a formula here", file=recipe.sidecar_path, element=dotted(path)
+            )
+        trace.place = formula.text
+        value = formula.value(known)
+        entries[path] = Ref(value.index) if isinstance(value, Traced) else value
+    trace.place = ""
+    return entries
+
+
+def _is_followed(path: Path) -> bool:
     """Whether designs follow a formula at this place of the sidecar."""
-    return tuple(step for step in path if isinstance(step, str)) in _FOLLOWED
+    steps = [step for step in path if isinstance(step, str)]
+    return any(_alike(steps, pattern.split(".")) for pattern in _FOLLOWED)
 
 
-def check_sizes(sheet: Sheet) -> None:
-    """Leave to the loader designs whose numbers it would refuse."""
-    for path, numbers in sheet.stated.items():
+def _alike(steps: Sequence[str], pattern: Sequence[str]) -> bool:
+    same = (want in (step, "*") for step, want in zip(steps, pattern, strict=False))
+    return len(steps) == len(pattern) and all(same)
+
+
+def check_numbers(stated: Stated, sheet: Sheet) -> None:
+    """Leave to the loader designs with formulas whose numbers it would refuse by themselves."""
+    for path, entry in stated.items():
+        numbers = sheet.row((entry,))[:, 0]
         key = path[-1]
-        if key in ("radius", "length", "length_max") and path[0] != "contacts":
+        if path[0] == "couplings":
+            sheet.require((numbers != 0.0) | (path[-2] != "joints"))
+        elif key in _ABOVE_ZERO and path[0] != "contacts":
             sheet.require(numbers > 0.0)
-        elif key in ("radius", "width", "tread", "stiffness"):
+        elif key in _NOT_BELOW or (path[-2] == "inertia" and key in (0, 1, 2)):
             sheet.require(numbers >= 0.0)
 
 
@@ -72,55 +110,6 @@ def sizes(sidecar: Sidecar, sheet: Sheet) -> dict[str, Any]:
         rings.append(np.zeros(1))
         treads.append(sheet.number(foot.radius, "contacts", i, "radius"))
     return {"rings": sheet.stack(rings), "treads": sheet.stack(treads)}
-
-
-def tracks(rover: Rover, sidecar: Sidecar, centers: Array, sheet: Sheet) -> dict[str, Any]:
-    """Tracks of many designs: circles in the nominal order, moved into the plane as nominally.
-
-    Args:
-        rover: the nominal one.
-        sidecar: its sidecar.
-        centers: (n, s, 3) m, of the shapes.
-        sheet: numbers.
-    """
-    place = {wheel.name: k for k, wheel in enumerate(rover.wheels)}
-    lengths, rhos, middles = [], [], []
-    for t, (spec, track) in enumerate(zip(sidecar.tracks, rover.tracks, strict=True)):
-        lengths.append(sheet.number(spec.length, "tracks", t, "length"))
-        stated = {_circle_of(entry): i for i, entry in enumerate(spec.wheels)}
-        for circle in track.circles:
-            i = stated[circle.name]
-            radius = _radius(sidecar, place, spec.wheels[i], sheet, "tracks", t, "wheels", i)
-            rhos.append(np.copysign(radius, circle.rho))
-            middle = circle.center[None]
-            if circle.wheel:
-                k = place[circle.name]
-                middle = centers[:, k] + (circle.center - rover.wheels[k].center)
-            middles.append(middle)
-    return {
-        "track_lengths": sheet.stack(lengths),
-        "track_rho": sheet.stack(rhos),
-        "track_centers": sheet.stack(middles, 3),
-        "track_axes": sheet.stack([track.axes[None] for track in rover.tracks], 3, 3),
-    }
-
-
-def _circle_of(entry: str | WrapSpec | PulleySpec) -> str:
-    """The name of a circle."""
-    if isinstance(entry, str):
-        return entry
-    return entry.frame if isinstance(entry, PulleySpec) else entry.wheel
-
-
-def _radius(
-    sidecar: Sidecar, place: Mapping[str, int], entry: str | WrapSpec | PulleySpec, sheet: Sheet,
-    *path: str | int,
-) -> Array:  # fmt: skip
-    """(n,) or (1,) m, the radius on which the cable runs."""
-    if not isinstance(entry, str) and entry.radius is not None:
-        return sheet.number(entry.radius, *path, "radius")
-    k = place[_circle_of(entry)]
-    return sheet.number(sidecar.wheels[k].radius, "wheels", k, "radius")
 
 
 def _width(width: float | None, tread: float | None) -> float:

@@ -116,7 +116,7 @@ def _ready(made: Pose, template: Template, sizes: Array, reach: float, *, same: 
     records = made.records
     template.support(records)
     shapes = int(records["n_shapes"][0])
-    whole = records["rings"][0, :shapes] + records["treads"][0, :shapes]
+    whole = records["rings"][:, :shapes] + records["treads"][:, :shapes]
     # any size will do: bounds that do not reach far enough are not used
     records["reach_of"][:, :shapes] = RINGS * np.minimum(np.searchsorted(sizes, whole), len(sizes) - 1)
     corners = int(records["n_outline"][0])

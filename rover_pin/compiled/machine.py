@@ -49,6 +49,7 @@ class Machine(NamedTuple):
         loop_rotations: (g, l, 2, 3, 3) of the frames that a loop joins, in their joints' frames.
         loop_translations: (g, l, 2, 3) m.
         loop_lengths: (g, l) m, of distance loops.
+        loop_across: (g, l, 3, 3) columns t1, t2 and the axis, in a frame's coordinates.
         strut_joints: (f, 2), of springs between frames.
         strut_translations: (g, f, 2, 3) m, their ends in the joints' frames.
         strut_values: (g, f, 3) stiffness N/m, preload N, greatest length m.
@@ -86,6 +87,7 @@ class Machine(NamedTuple):
     loop_rotations: Array
     loop_translations: Array
     loop_lengths: Array
+    loop_across: Array
     strut_joints: Integers
     strut_translations: Array
     strut_values: Array
@@ -142,6 +144,7 @@ def machine_of(rover: Rover) -> Machine:
         loop_rotations=_one([[f.rotation for f in pair] for pair in loops], len(loops), 2, 3, 3),
         loop_translations=_one([[f.translation for f in pair] for pair in loops], len(loops), 2, 3),
         loop_lengths=_one([loop.length for loop in rover.loops], len(loops)),
+        loop_across=_one([loop.across for loop in rover.loops], len(loops), 3, 3),
         strut_joints=_pairs(ends),
         strut_translations=_one([[f.translation for f in pair] for pair in ends], len(ends), 2, 3),
         strut_values=_one([(s.stiffness, s.preload, s.length_max) for s in struts], len(struts), 3),

@@ -70,7 +70,7 @@ def pose(rover: Rover, machine: Machine, problem: Problem, held: Sequence[str], 
     """Merge what is held.
 
     Args:
-        rover: whose springs and wheels' sizes count.
+        rover: the rover as loaded.
         machine: its designs, one or one a group.
         problem: the plain path's, which says what is free.
         held: names of the joints that are held.
@@ -117,13 +117,21 @@ def _product(matrices: Array, vectors: Array) -> Array:
 
 def spans_of(rover: Rover, machine: Machine, count: int) -> Array:
     """(count,) m, the largest distance between two shapes at home, as `Rover.wheel_span`."""
-    home = np.broadcast_to(rover.neutral, (len(machine.masses), rover.model.nv))
-    placed, _ = merge(machine, home, ())
+    placed, _ = merge(machine, home_of(rover, machine), ())
     _, centers = points(placed, machine.shape_joints, machine.centers)
     away = centers[:, :, None] - centers[:, None, :]
     span = np.sqrt(np.max(np.sum(away * away, axis=-1), axis=(1, 2), initial=0.0))
-    lone = 2.0 * max((shape.ring + shape.tread for shape in rover.shapes), default=0.0) or 1.0
+    lone = 2.0 * np.max(machine.rings + machine.treads, axis=1, initial=0.0)
+    lone[lone == 0.0] = 1.0
     return _wide(np.maximum(np.where(span > 0.0, span, lone), 1e-3), count)
+
+
+def home_of(rover: Rover, machine: Machine) -> Array:
+    """(g, nv) configuration at home, as `Rover.neutral`."""
+    home: Array = np.clip(0.0, machine.lower, machine.upper)
+    for name, value in rover.home.items():
+        home[:, rover.column[name]] = value
+    return home
 
 
 def _records(
@@ -178,7 +186,7 @@ def _records(
         out["stop_limits"][:, k] = (machine.upper if sign > 0.0 else machine.lower)[:, column]
     _put(out, "loop_kinds", kinds)
     _put(out, "loop_starts", [0, *np.cumsum([SIZES[kind] for kind in kinds])])
-    _put(out, "loop_across", [loop.across for loop in rover.loops])
+    out["loop_across"][:, : len(kinds)] = machine.loop_across
     out["loop_lengths"][:, : len(kinds)] = machine.loop_lengths
     for e in range(2):
         joints = machine.loop_joints[:, e]

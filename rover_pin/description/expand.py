@@ -180,8 +180,9 @@ def _refuse_undeclared(
         if name in used or (asked is not None and name in asked):
             continue
         plain = f"{path.name} is plain URDF without arguments"
+        unknown = plain if asked is None else f"no <xacro:arg> of that name in {path.name}"
         raise SidecarError(
-            plain if asked is None else f"no <xacro:arg> of that name in {path.name}",
+            f"{unknown}, and no formula of the sidecar uses it",
             file=declared_in,
             element=f"parameters.{name}",
             cure=nearest(name, asked) if asked else "remove it",

@@ -1,36 +1,55 @@
-"""Numbers of a sidecar written as formulas of its parameters: `"${track_length + 0.01}"`."""
+"""Numbers of a sidecar written as formulas of its parameters: `"${track_length + 0.01}"`.
+
+The syntax is that of xacro's expressions, of which only numbers are let in: a formula is walked, not run. On
+traced parameters (`rover_pin.description.trace`) it leaves a trace, from which many designs are made at once.
+"""
 
 from __future__ import annotations
 
 import ast
+import math
 import operator
 import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, cast
 
-import numpy as np
-
+from rover_pin.description.trace import Traced, UntraceableError
+from rover_pin.description.trace_functions import OF_NUMBERS, traced_symbols
 from rover_pin.errors import SidecarError, nearest
-from rover_pin.numerics import Array
 
 Path = tuple[str | int, ...]
-Number = float | Array
+Number = float | Traced
 
-WHOLE = re.compile(r"\s*\$\{(.+)\}\s*", re.DOTALL)
+WHOLE = re.compile(r"\s*\$\{([^{}]+)\}\s*")
 """A text that is one formula."""
 
 PLAIN = ("parameters", "schema")
 """Keys of the sidecar that hold no formulas."""
 
-_CONSTANTS = {"pi": np.pi, "e": np.e, "tau": 2.0 * np.pi}
-_FUNCTIONS: dict[str, Callable[..., Any]] = {
-    "sin": np.sin, "cos": np.cos, "tan": np.tan, "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan,
-    "atan2": np.arctan2, "sqrt": np.sqrt, "exp": np.exp, "log": np.log, "hypot": np.hypot, "abs": np.abs,
-    "radians": np.radians, "degrees": np.degrees, "min": np.minimum, "max": np.maximum,
-}  # fmt: skip
+SYNTAX = "write numbers, parameters, functions, + - * / // % ** and ( )"
+
+_CONSTANTS = {"pi": math.pi, "e": math.e, "tau": math.tau}
+
+
+def _round(value: Any, digits: Any = None) -> Any:
+    """Python's, whose digits are a whole number."""
+    return round(value) if digits is None else round(value, int(digits))
+
+
+_FUNCTIONS: dict[str, Callable[..., Any]] = traced_symbols(
+    {name: getattr(math, name) for name in sorted(OF_NUMBERS) if hasattr(math, name)}
+    | {"abs": abs, "min": min, "max": max, "round": _round, "int": int, "float": float}
+)
 _BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
-    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: np.divide,
-    ast.Pow: np.power,
+    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
+    ast.FloorDiv: operator.floordiv, ast.Mod: operator.mod, ast.Pow: operator.pow,
+}  # fmt: skip
+_UNARY: dict[type[ast.unaryop], Callable[[Any], Any]] = {
+    ast.USub: operator.neg, ast.UAdd: operator.pos, ast.Not: operator.not_,
+}  # fmt: skip
+_COMPARED: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
+    ast.Lt: operator.lt, ast.LtE: operator.le, ast.Gt: operator.gt, ast.GtE: operator.ge,
+    ast.Eq: operator.eq, ast.NotEq: operator.ne,
 }  # fmt: skip
 
 
@@ -43,14 +62,14 @@ class FormulaError(ValueError):
 
 
 class Formula:
-    """An expression of numbers, parameters, + - * / **, brackets and functions such as `sqrt`.
+    """An expression of numbers, parameters and functions of `math`, compared and chosen between as in Python.
 
     Args:
         text: without the `${ }`.
 
     Attributes:
         text: as given.
-        names: the parameters it is made of.
+        names: what it calls by name: parameters, pi, e, tau.
 
     Raises:
         FormulaError: it is none.
@@ -60,22 +79,34 @@ class Formula:
         self.text = text.strip()
         try:
             self._tree = ast.parse(self.text, mode="eval").body
-        except SyntaxError as error:
-            raise FormulaError("not a formula", "write numbers, parameters, + - * / ** and ( )") from error
-        self.names = frozenset(_names(self._tree)) - set(_CONSTANTS)
+            self.names = frozenset(_names(self._tree))
+        except FormulaError:
+            raise
+        except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+            raise FormulaError("not a formula", SYNTAX) from error
 
     def value(self, values: Mapping[str, Number]) -> Number:
-        """Its value; an array where a parameter is one.
+        """Its value.
 
         Args:
-            values: of the parameters, numbers or arrays (n,).
+            values: of the parameters; a parameter called `e` hides the constant.
 
         Raises:
-            FormulaError: an unknown name.
+            FormulaError: an unknown name, or no finite value at these parameters.
+            UntraceableError: an operation that a trace does not follow.
         """
-        with np.errstate(all="ignore"):
-            found: Number = _value(self._tree, {**_CONSTANTS, **values})
-        return found
+        try:
+            found = _value(self._tree, values)
+            if isinstance(found, Traced):
+                return found
+            if not isinstance(found, complex) and math.isfinite(found):
+                return float(found)
+        except (FormulaError, UntraceableError):
+            raise
+        except (ArithmeticError, ValueError, TypeError):  # TypeError: a complex number is compared
+            pass
+        shown = ", ".join(f"{name} = {values[name]}" for name in sorted(self.names) if name in values)
+        raise FormulaError("the formula has no finite value", f"check it{shown and ' at '}{shown}")
 
 
 def _names(tree: ast.expr) -> Iterator[str]:
@@ -86,55 +117,107 @@ def _names(tree: ast.expr) -> Iterator[str]:
     """
     if isinstance(tree, ast.Name):
         yield tree.id
+        return
+    if isinstance(tree, ast.Call) and not tree.keywords and tree.args:
+        _function(tree)
+        parts = tree.args
+    elif isinstance(tree, ast.Constant) and type(tree.value) in (int, float):
+        parts = []
     elif isinstance(tree, ast.BinOp) and type(tree.op) in _BINARY:
-        yield from _names(tree.left)
-        yield from _names(tree.right)
-    elif isinstance(tree, ast.UnaryOp) and isinstance(tree.op, ast.USub | ast.UAdd):
-        yield from _names(tree.operand)
-    elif isinstance(tree, ast.Call) and isinstance(tree.func, ast.Name) and not tree.keywords:
-        if tree.func.id not in _FUNCTIONS:
-            raise FormulaError(f"no function {tree.func.id}", f"use {', '.join(sorted(_FUNCTIONS))}")
-        for argument in tree.args:
-            yield from _names(argument)
-    elif not (isinstance(tree, ast.Constant) and type(tree.value) in (int, float)):
-        raise FormulaError(
-            f"`{ast.unparse(tree)}` is no part of a formula", "write numbers, parameters, + - * / ** and ( )"
-        )
+        parts = [tree.left, tree.right]
+    elif isinstance(tree, ast.UnaryOp) and type(tree.op) in _UNARY:
+        parts = [tree.operand]
+    elif isinstance(tree, ast.Compare) and all(type(op) in _COMPARED for op in tree.ops):
+        parts = [tree.left, *tree.comparators]
+    elif isinstance(tree, ast.BoolOp):
+        parts = tree.values
+    elif isinstance(tree, ast.IfExp):
+        parts = [tree.test, tree.body, tree.orelse]
+    else:
+        raise FormulaError(f"`{ast.unparse(tree)}` is no part of a formula", SYNTAX)
+    for part in parts:
+        yield from _names(part)
+
+
+def _function(call: ast.Call) -> Callable[..., Any]:
+    """The function that is called, `sin` or `math.sin`.
+
+    Raises:
+        FormulaError: there is none of that name.
+    """
+    called = ast.unparse(call.func)
+    found = _FUNCTIONS.get(called.removeprefix("math."))
+    if found is None:
+        raise FormulaError(f"no function {called}", nearest(called, _FUNCTIONS))
+    return found
 
 
 def _value(tree: ast.expr, values: Mapping[str, Number]) -> Any:
+    """A number; whole ones as floats, whose powers end."""
     if isinstance(tree, ast.Constant):
-        return float(tree.value)  # type: ignore[arg-type]
+        return float(cast("float", tree.value))  # `_names` has let nothing else pass
     if isinstance(tree, ast.Name):
-        if tree.id not in values:
-            known = [name for name in values if name not in _CONSTANTS]
-            cure = nearest(tree.id, known) if known else "declare it under `parameters`"
-            raise FormulaError(f"no parameter {tree.id}", cure or "declare it under `parameters`")
-        return values[tree.id]
+        return _named(tree.id, values)
     if isinstance(tree, ast.UnaryOp):
-        inner = _value(tree.operand, values)
-        return -inner if isinstance(tree.op, ast.USub) else inner
+        return _UNARY[type(tree.op)](_value(tree.operand, values))
     if isinstance(tree, ast.BinOp):
         return _BINARY[type(tree.op)](_value(tree.left, values), _value(tree.right, values))
-    call = cast("ast.Call", tree)  # `_names` has let nothing else pass
-    name = cast("ast.Name", call.func).id
+    if isinstance(tree, ast.IfExp):
+        return _value(tree.body if _value(tree.test, values) else tree.orelse, values)
+    if isinstance(tree, ast.Compare):
+        numbers = [_value(part, values) for part in (tree.left, *tree.comparators)]
+        pairs = zip(tree.ops, numbers, numbers[1:], strict=False)
+        return all(_COMPARED[type(op)](one, other) for op, one, other in pairs)
+    if isinstance(tree, ast.BoolOp):
+        stops = isinstance(tree.op, ast.Or)
+        return next((stops for part in tree.values if bool(_value(part, values)) == stops), not stops)
+    call = cast("ast.Call", tree)
+    arguments = [_value(part, values) for part in call.args]
     try:
-        return _FUNCTIONS[name](*(_value(argument, values) for argument in call.args))
+        result = _function(call)(*arguments)
     except TypeError as error:
-        raise FormulaError(f"{name} takes other arguments", "check how many it is given") from error
+        raise FormulaError(
+            f"{ast.unparse(call.func)} takes other arguments", "check how many it is given"
+        ) from error
+    return float(result) if isinstance(result, int) else result
+
+
+def _named(name: str, values: Mapping[str, Number]) -> Number:
+    """The value of a parameter, else of a constant.
+
+    Raises:
+        FormulaError: neither is called so.
+    """
+    if name in values:
+        return values[name]
+    if name in _CONSTANTS:
+        return _CONSTANTS[name]
+    cure = nearest(name, values) if values else "declare it under `parameters`"
+    raise FormulaError(f"no parameter {name}", cure)
 
 
 def formulas_in(data: Any, path: Path = ()) -> Iterator[tuple[Path, str]]:
-    """Where formulas stand in a sidecar's data, and their texts."""
+    """Where texts with `${` stand in a sidecar's data."""
     if isinstance(data, str):
-        found = WHOLE.fullmatch(data)
-        if found:
-            yield path, found.group(1)
+        if "${" in data:
+            yield path, data
         return
     entries = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
     for key, value in entries:
         if path or key not in PLAIN:
             yield from formulas_in(value, (*path, key))
+
+
+def formula_of(text: str) -> Formula:
+    """The formula that a text is.
+
+    Raises:
+        FormulaError: it is none, or more than one.
+    """
+    found = WHOLE.fullmatch(text)
+    if found is None:
+        raise FormulaError("a formula is only part of the text", 'put all of it into one "${ }"')
+    return Formula(found.group(1))
 
 
 def fill_in(
@@ -148,17 +231,14 @@ def fill_in(
         told: the file with its line, and the key's name, of a path.
 
     Raises:
-        SidecarError: a formula that is none, or whose value is not finite.
+        SidecarError: a formula that is none, of an unknown parameter, or whose value is not finite.
     """
     for path, text in list(formulas_in(data)):
-        file, element = told(path)
         try:
-            value = float(Formula(text).value(values))
+            value = formula_of(text).value(values)
         except FormulaError as error:
+            file, element = told(path)
             raise SidecarError(str(error), file=file, element=element, value=text, cure=error.cure) from error
-        if not np.isfinite(value):
-            raise SidecarError("the formula's value is not finite", file=file, element=element, value=text,
-                               cure="check it at these parameters")  # fmt: skip
         owner: Any = data
         for step in path[:-1]:
             owner = owner[step]

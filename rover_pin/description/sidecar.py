@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, FiniteFloat, Tag
 
-from rover_pin.description.formulas import Formula, Path, fill_in, formulas_in
+from rover_pin.description.formulas import Formula, Path, fill_in, formula_of, formulas_in
 from rover_pin.description.parameters import ParameterSpec
 from rover_pin.description.reading import dotted, parse_yaml, place, validated
 from rover_pin.description.specs import (
@@ -111,7 +111,7 @@ class _Declared(BaseModel):
 def formulas_of(text: str, file: object) -> Mapping[Path, Formula]:
     """The formulas of a sidecar that `read_sidecar` has read, by where they stand in it."""
     data, _ = parse_yaml(text, file)
-    return {path: Formula(formula) for path, formula in formulas_in(data)}
+    return {path: formula_of(formula) for path, formula in formulas_in(data)}
 
 
 def load_sidecar(path: File) -> tuple[Sidecar, str]:

@@ -9,7 +9,7 @@ from typing import Any
 
 from rover_pin.description.trace import Traced, is_number
 
-_OF_NUMBERS = frozenset(
+OF_NUMBERS = frozenset(
     {"acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh", "cbrt", "ceil", "copysign", "cos", "cosh"}
     | {"degrees", "erf", "erfc", "exp", "exp2", "expm1", "fabs", "floor", "fmod", "gamma", "hypot", "lgamma"}
     | {"log", "log10", "log1p", "log2", "pow", "radians", "remainder", "sin", "sinh", "sqrt", "tan", "tanh"}
@@ -73,7 +73,7 @@ def _of_math(name: str, function: Function) -> Function:
         found = first_traced(arguments)
         if found is None:
             return function(*arguments)
-        if name not in _OF_NUMBERS or not all(map(is_number, arguments)):
+        if name not in OF_NUMBERS or not all(map(is_number, arguments)):
             found.trace.lose(f"{name}() of a number that depends on {found.trace_of()} is not followed")
         return found.trace.apply("math.pow" if name == "pow" else name, function, *arguments)
 

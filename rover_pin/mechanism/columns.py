@@ -137,3 +137,34 @@ def stretch(
             gradient[c] = sign * (ex * vx + ey * vy + ez * vz)
             c = parent[c]
     return length
+
+
+@formula
+def strut(
+    parent: Integers, turn: Array, move: Array, ref: Array, rotations: Array, origins: Array,
+    joints: Integers, ends: Integers, local: Array, points: Array, gradient: Array,
+) -> float:  # fmt: skip
+    """`stretch` between two points given in the frames of their joints.
+
+    Args:
+        parent: (m,).
+        turn: (m, 3).
+        move: (m, 3).
+        ref: (3,) m.
+        rotations: (joints, 3, 3), world.
+        origins: (joints, 3) m.
+        joints: (2,).
+        ends: (2,) columns of the bodies.
+        local: (2, 3) m, in the joints' frames.
+        points: (2, 3) receives the points, world [m].
+        gradient: (m,) receives the derivative.
+
+    Returns:
+        The distance [m].
+    """
+    for i in range(2):
+        r, o = rotations[joints[i]], origins[joints[i]]
+        u, v, w = local[i, 0], local[i, 1], local[i, 2]
+        for k in range(3):
+            points[i, k] = o[k] + r[k, 0] * u + r[k, 1] * v + r[k, 2] * w
+    return stretch(parent, turn, move, ref, ends, points, gradient)

@@ -44,6 +44,14 @@ class OneSided(Protocol):
     def name(self) -> str:
         """The name given in the sidecar."""
 
+    @property
+    def kind(self) -> str:
+        """Its list in the sidecar."""
+
+    @property
+    def impossible(self) -> tuple[str, str]:
+        """What is wrong, and the cure, where no motion of the joints makes s(q) >= 0."""
+
     def slack(self, at: Kinematics) -> float:
         """s(q) [m or rad]: what is left before the stop or until the cable is taut."""
 

@@ -14,7 +14,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from rover_pin.errors import MechanismError, SidecarError, nearest
 from rover_pin.mechanism.bending import bend_strut
 from rover_pin.mechanism.closure import push, torque
-from rover_pin.mechanism.columns import stretch
+from rover_pin.mechanism.columns import strut
 from rover_pin.mechanism.frames import BodyFrame, FrameSpec, resolve_pair
 from rover_pin.mechanism.kinematics import Kinematics, column_of
 from rover_pin.numerics import Array
@@ -151,14 +151,18 @@ class FrameSpring:
         """(nv,) d length / dq [m/rad or m/m]."""
         return self._span(at)[1]
 
-    def _span(self, at: Kinematics) -> tuple[float, Array]:
-        """Length and its gradient."""
+    def _span(self, at: Kinematics) -> tuple[float, Array, Array]:
+        """Length, its gradient, and the ends (2, 3) m, world."""
         return at.once(self, lambda: self._measure(at))
 
-    def _measure(self, at: Kinematics) -> tuple[float, Array]:
-        gradient = np.empty(at.model.nv)
-        tree = at.columns
-        length = stretch(tree.parent, tree.turn, tree.move, tree.ref, self._ends, self._points(at), gradient)
+    def _measure(self, at: Kinematics) -> tuple[float, Array, Array]:
+        gradient, points, tree = np.empty(at.model.nv), np.empty((2, 3)), at.columns
+        rotations, origins = at.placements
+        joints, ends, local = self._ends
+        length = strut(
+            tree.parent, tree.turn, tree.move, tree.ref, rotations, origins, joints, ends, local, points,
+            gradient,
+        )  # fmt: skip
         if length < 1e-9:
             raise MechanismError(
                 "the spring's ends coincide, so it pushes in no direction",
@@ -166,7 +170,17 @@ class FrameSpring:
                 value=length,
                 cure="move one of its frames",
             )
-        return length, gradient
+        return length, gradient, points
+
+    @cached_property
+    def _ends(self) -> tuple[NDArray[np.int64], NDArray[np.int64], Array]:
+        """Joints (2,), columns (2,) and places (2, 3) m of the ends."""
+        frames = (self.first, self.second)
+        return (
+            np.array([frame.joint for frame in frames]),
+            np.array([column_of(frame.joint) for frame in frames]),
+            np.array([frame.translation for frame in frames]),
+        )
 
     def effort(self, at: Kinematics) -> float:
         """The spring's push [N]."""
@@ -180,6 +194,19 @@ class FrameSpring:
     def force(self, at: Kinematics) -> Array:
         """(nv,) generalised force."""
         return self.effort(at) * self.length_gradient(at)
+
+    @property
+    def kind(self) -> str:
+        """`springs`."""
+        return "springs"
+
+    @property
+    def impossible(self) -> tuple[str, str]:
+        """Longer than its stop, wherever the joints go."""
+        return (
+            "the spring is longer than its length_max wherever the joints go",
+            "give a greater length_max, or move its frames",
+        )
 
     def slack(self, at: Kinematics) -> float:
         """length_max - length [m]."""
@@ -199,19 +226,11 @@ class FrameSpring:
 
     def _bend(self, at: Kinematics, force: float, stiffness: float, out: Array) -> None:
         """Take the derivative of a push along the spring off `out`."""
-        tree, points = at.columns, self._points(at)
+        tree, points = at.columns, self._span(at)[2]
         bend_strut(
-            tree.parent, tree.turn, tree.move, tree.ref, self._ends, points, force, stiffness, tree.scratch,
-            out,
+            tree.parent, tree.turn, tree.move, tree.ref, self._ends[1], points, force, stiffness,
+            tree.scratch, out,
         )  # fmt: skip
-
-    @cached_property
-    def _ends(self) -> NDArray[np.int64]:
-        return np.array([column_of(self.first.joint), column_of(self.second.joint)])
-
-    def _points(self, at: Kinematics) -> Array:
-        """(2, 3) m, the ends, world."""
-        return np.array([self.first.origin(at), self.second.origin(at)])
 
 
 Spring = JointSpring | FrameSpring

@@ -193,12 +193,25 @@ class Track:
     def _wrap(self, at: Kinematics) -> Wrap:
         count = len(self.circles)
         rotations, origins = (found[self._carriers] for found in at.placements)
-        centers = np.einsum("kij,kj->ki", rotations, self._places) + origins
+        centers = (rotations @ self._places[:, :, None])[:, :, 0] + origins
         plane = at.rotation(self.joint) @ self.axes
         rho = self._rho
         following, spans, turns = np.empty(count, dtype=np.int64), np.zeros((count, 3)), np.zeros(count)
         length = taut(centers @ plane[:, :2], rho, following, spans, turns)
         return Wrap(length, centers, plane, rho, following, spans, turns)
+
+    @property
+    def kind(self) -> str:
+        """`tracks`."""
+        return "tracks"
+
+    @property
+    def impossible(self) -> tuple[str, str]:
+        """Shorter than its wrap, wherever the joints go."""
+        return (
+            "the track is shorter than its way around its wheels wherever the joints go",
+            "give a longer track, or smaller or nearer wheels",
+        )
 
     def slack(self, at: Kinematics) -> float:
         """Length less the shortest way around [m]; NaN where circles overlap so that there is none."""

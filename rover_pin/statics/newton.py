@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.linalg import qr
+from scipy.linalg.lapack import dgetrf, dgetrs
 
 from rover_pin.numerics import Array
 from rover_pin.statics.problem import Integers, Problem, State
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
 ITERATIONS = 25
 STEP = 1e-7
 """Share of the span, or rad: Newton squares its error, so the step that is this small is the last."""
+
+DETERMINED = 1e-6
+"""Least over largest pivot above which a system is solved without looking for its null space."""
 
 BALANCE = 1e-6
 """Share of weight times span that may stay out of balance after the last step."""
@@ -84,14 +88,15 @@ def land(
         return None
     determinate = held == problem.n
     start, size = z, -1
+    touching = active[active < len(problem.rover.shapes)]
     pushed: Array
     forces: Array = np.zeros(held)
     if not determinate:
-        state = problem.state(z, terrain, window)
+        state = problem.state(z, terrain, window, only=touching)
         forces = _first_guess(state, active, loops, problem)
     for i in range(iterations):
         if determinate or i > 0:
-            state = problem.state(z, terrain, window)
+            state = problem.state(z, terrain, window, only=touching)
         if size >= 0 and len(state.slack) != size:
             return None
         size = len(state.slack)
@@ -118,6 +123,7 @@ def land(
             rest = np.max(np.abs(state.load + pushed - sides.T @ forces) * problem.unit)
             if rest > BALANCE * problem.weight * problem.span:
                 return None
+            problem.look_at_others(state, terrain, window)
             full, pulling = _spread(state, active, loops, forces)
             sign = float(np.linalg.slogdet(rows)[0]) if determinate else 0.0
             return Landing(z + step, state, active, full, pulling, sign)
@@ -145,6 +151,16 @@ def _first_guess(state: State, active: Integers, loops: Integers, problem: Probl
     return np.asarray(np.linalg.lstsq(sides, state.load * problem.unit, rcond=1e-9)[0], dtype=np.float64)
 
 
+def _solved(matrix: Array, right: Array) -> Array:
+    """Solution of a square system; of least size where a direction is not determined."""
+    factors, pivots, _ = dgetrf(matrix)
+    sizes = np.abs(factors.diagonal())
+    if sizes.min() > DETERMINED * sizes.max():
+        found: Array = dgetrs(factors, pivots, right)[0]
+        return found
+    return np.asarray(np.linalg.lstsq(matrix, right, rcond=1e-8)[0], dtype=np.float64)
+
+
 def _elastic_step(
     problem: Problem, state: State, stiffness: Array, rows: Array, sides: Array, gaps: Array, forces: Array
 ) -> tuple[Array, Array]:
@@ -153,10 +169,11 @@ def _elastic_step(
     A scaled least-squares solve: directions that nothing determines do not move.
     """
     n, held = problem.n, len(gaps)
-    matrix = np.block([[stiffness, -sides.T], [rows, np.zeros((held, held))]])
+    matrix = np.zeros((n + held, n + held))
+    matrix[:n, :n], matrix[:n, n:], matrix[n:, :n] = stiffness, -sides.T, rows
     right = np.concatenate([sides.T @ forces - state.load, -gaps])
     scale = np.concatenate([problem.unit, np.full(held, problem.weight)])
     weigh = np.concatenate([problem.unit / (problem.weight * problem.span), np.ones(held) / problem.span])
     scaled = matrix * scale[None, :] * weigh[:, None]
-    solution = np.linalg.lstsq(scaled, right * weigh, rcond=1e-8)[0] * scale
+    solution = _solved(scaled, right * weigh) * scale
     return solution[:n], forces + solution[n:]

@@ -188,22 +188,54 @@ class Problem:
             np.array([getattr(point, "radius", 0.0) for point in ordered]),
         )
 
-    def search(self, at: Kinematics, terrain: Terrain, window: float) -> tuple[Integers, Array]:
-        """Contacts of every shape: owners (c,) and rows (c, 7), each shape's least first."""
-        shapes = self.shapes
-        centers, axes = self.place_shapes(at)
+    def search(
+        self, at: Kinematics, terrain: Terrain, window: float, only: Integers | None = None
+    ) -> tuple[Integers, Array]:
+        """Contacts of every shape: owners (c,) and rows (c, 7), each shape's least first.
+
+        With `only` and one contact a shape, those alone are looked for; the others' gap is infinite.
+        """
         found, counts = self._found, self._counts
-        find_all(
-            terrain.kind, terrain.table, terrain.params, terrain.spacing,
-            shapes.forms, centers, axes, shapes.rings, shapes.treads, window, found, counts,
-        )  # fmt: skip
+        count = len(counts)
+        if only is not None and window <= THOROUGH and len(only) < count:
+            rows = np.empty((count, 7))
+            rows[:] = (np.inf, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+            self._look(at, terrain, window, only)
+            rows[only] = found[: len(only), 0]
+            return np.arange(count), rows
+        self._look(at, terrain, window, slice(None))
         if window <= THOROUGH:
-            return np.arange(len(counts)), found[:, 0].copy()
-        owners = np.repeat(np.arange(len(counts)), counts)
-        rows = np.concatenate([found[i, : counts[i]] for i in range(len(counts))])
+            return np.arange(count), found[:, 0].copy()
+        owners = np.repeat(np.arange(count), counts)
+        rows = np.concatenate([found[i, : counts[i]] for i in range(count)])
         return owners, rows
 
-    def state(self, z: Array, terrain: Terrain, window: float = 0.0, at: Kinematics | None = None) -> State:
+    def _look(self, at: Kinematics, terrain: Terrain, window: float, which: Integers | slice) -> None:
+        """Contacts of some shapes, in the first rows of `_found`."""
+        shapes = self.shapes
+        centers, axes = self.place_shapes(at)
+        find_all(
+            terrain.kind, terrain.table, terrain.params, terrain.spacing, shapes.forms[which],
+            centers[which], axes[which], shapes.rings[which], shapes.treads[which], window, self._found,
+            self._counts,
+        )  # fmt: skip
+
+    def look_at_others(self, state: State, terrain: Terrain, window: float) -> None:
+        """Fill in the gaps that a state made with `only` has left infinite."""
+        missing: Integers = np.flatnonzero(np.isinf(state.contacts[:, 0]))
+        if len(missing):
+            _, rows = self.search(state.at, terrain, window, missing)
+            state.contacts[missing] = rows[missing]
+            state.slack[missing] = rows[missing, 0]
+
+    def state(
+        self,
+        z: Array,
+        terrain: Terrain,
+        window: float = 0.0,
+        at: Kinematics | None = None,
+        only: Integers | None = None,
+    ) -> State:
         """The equations at z.
 
         Args:
@@ -211,10 +243,11 @@ class Problem:
             terrain: what it stands on.
             window: m; contacts of a shape within this of its least gap are rows too; 0: one row a shape.
             at: kinematics at z, where they are known.
+            only: shapes that are looked at, see `search`.
         """
         at = at or self.locate(z)
         basis = self.reduction.basis
-        owners, contacts = self.search(at, terrain, window)
+        owners, contacts = self.search(at, terrain, window, only)
         owned = len(contacts)
         size = owned + len(self._stop_columns) + len(self.one_sided)
         slack, motion, force = np.empty(size), np.empty((size, self.n)), np.empty((size, self.n))

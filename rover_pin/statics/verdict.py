@@ -77,8 +77,10 @@ def steadiness(problem: Problem, state: State, loads: Loads, terrain: Terrain, m
         across = null_space(sides)
     if across.shape[1] != motions.shape[1]:
         across = motions
-    solved = np.linalg.lstsq(across.T @ motions, across.T @ scaled @ motions, rcond=None)[0]
-    return np.array(solved, dtype=np.float64)
+    between, pushed = across.T @ motions, across.T @ scaled @ motions
+    if motions.shape[1] == 1 and between[0, 0] != 0.0:
+        return np.asarray(pushed / between, dtype=np.float64)
+    return np.asarray(np.linalg.lstsq(between, pushed, rcond=None)[0], dtype=np.float64)
 
 
 def way_out(problem: Problem, motions: Array, stiffness: Array) -> Array | None:

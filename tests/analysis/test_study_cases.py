@@ -213,5 +213,9 @@ def test_grids_that_do_not_fit(grid: dict[str, int], message: str) -> None:
 
 
 def test_a_grid_without_counts() -> None:
-    with pytest.raises(StudyError, match=re.escape("write cases: {grid: {x: 10}}")):
-        draw(questions(), CasesSpec(sampler="grid"))
+    one = everything(questions(), CasesSpec(sampler="grid"))
+    assert len(np.unique(one.x)) == len(one) == 41
+    assert len(everything(questions(y=Span(0.0, 1.0)), CasesSpec(sampler="grid"))) == 21 * 21
+    three = questions(y=Span(0.0, 1.0), yaw_deg=Span(0.0, 10.0))
+    with pytest.raises(StudyError, match=re.escape("write cases: {grid: {")):
+        draw(three, CasesSpec(sampler="grid"))

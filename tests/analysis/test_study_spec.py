@@ -39,6 +39,9 @@ def test_the_default_study_reads_as_it_is_documented() -> None:
         ([1, 2, 3], Choice((1.0, 2.0, 3.0))),
         ({"values": [1, 2]}, Choice((1.0, 2.0))),
         ("1e-3", Choice((0.001,))),
+        ({"from": 1, "to": 2, "by": 0.25}, Choice((1.0, 1.25, 1.5, 1.75, 2.0))),
+        ({"from": 0, "to": 1, "by": 0.4}, Choice((0.0, 0.4, 0.8))),
+        ({"from": 0, "to": 3, "count": 4}, Choice((0.0, 1.0, 2.0, 3.0))),
     ],
 )
 def test_quantities(written: object, meant: object) -> None:
@@ -52,7 +55,7 @@ def test_quantities(written: object, meant: object) -> None:
         (BASE + "cases: {n: -5}", "s.yaml: cases.n: should be greater than or equal to 1 (got -5)"),
         (
             BASE + "cases: {sampler: sobal, n: 4}",
-            "s.yaml: cases.sampler: should be 'sobol' or 'grid' (got 'sobal')",
+            "s.yaml: cases.sampler: should be 'sobol', 'grid' or 'sensitivity' (got 'sobal')",
         ),
         (BASE + "case: {n: 4}", "s.yaml: case: unknown key; did you mean 'cases' or 'measures'?"),
         (BASE + "vary: {yaw: [0, 1]}", "s.yaml: vary.yaw: unknown key; did you mean 'yaw_deg' or 'y'?"),
@@ -73,6 +76,41 @@ def test_quantities(written: object, meant: object) -> None:
         (
             BASE + "vary: {x: [5, 1]}",
             "s.yaml: vary.x: range is upside down (got [5.0, 1.0]); write the lesser number first",
+        ),
+        (
+            BASE + "vary: {x: {from: 1, to: 0, by: 0.1}}",
+            "s.yaml: vary.x: range is upside down (got [1.0, 0.0]); write the lesser number as `from`",
+        ),
+        (
+            BASE + "vary: {x: {from: 0, to: 1}}",
+            "s.yaml: vary.x: is no quantity (got {'from': 0, 'to': 1}); write [lo, hi], "
+            "{values: [a, b, ...]}, or {from: lo, to: hi, by: step}",
+        ),
+        (
+            BASE + "vary: {x: {from: 0, to: 1, by: 0}}",
+            "s.yaml: vary.x.by: is no step (got 0); a positive step that makes at most 10000 values",
+        ),
+        (
+            BASE + "vary: {x: {from: 0, to: 1, count: 1}}",
+            "s.yaml: vary.x.count: is no count of values (got 1); at least 2",
+        ),
+        (
+            BASE + "cases: {sampler: sensitivity, n: 5}",
+            "s.yaml: cases.n: does not say how many cases sensitivities take; leave it out: there are "
+            "four cases a parameter, and one",
+        ),
+        (
+            BASE + "cases: {sampler: sobol, step: 0.1}",
+            "s.yaml: cases.step: needs the sampler sensitivity (got 'sobol')",
+        ),
+        (BASE + "search: {trials: 5}", "s.yaml: search: has no goal; write minimise: load_spread, say"),
+        (
+            BASE + "search: {minimise: a, maximise: b}",
+            "s.yaml: search: has two goals (got 'minimise and maximise'); keep one",
+        ),
+        (
+            BASE + "search: {minimise: a, subject to: {b: 4}}",
+            "s.yaml: search.subject_to.b: is no pair of bounds (got 4); write [least, most], or [null, most]",
         ),
         (BASE + "vary: {x: [.nan, 1]}", "s.yaml: vary.x: is not a finite number (got nan)"),
         (BASE + "vary: {friction: [0, 1]}", "s.yaml: vary.friction: must be more than zero (got 0.0)"),

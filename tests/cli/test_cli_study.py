@@ -124,7 +124,7 @@ def test_resume_after_an_interrupt(
             [],
             "s.yaml: vary.posture: no such posture (got 'hom'); did you mean",
         ),
-        (SMALL.replace("[tip, loads]", "[]"), ["--html", "x.html"], "--html: a page needs a measure"),
+        (SMALL + "search: {minimise: load_spread}\n", [], "s.yaml: search: asks for a search; run it with"),
     ],
 )
 def test_bad_input_writes_nothing(

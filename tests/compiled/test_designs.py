@@ -107,6 +107,46 @@ parameters:
   lean: {default: 0.3, bounds: [0.1, 0.5]}
 """
 
+STATED = """
+schema: 1
+up: [0.1, 0.2, 1]
+free: {spin: {type: revolute, axis: [0, "${5 * size}", 0.5], limits: ["${-stop - 0.1}", "${0.5 + size}"]}}
+inertials: {hand: {mass: "${heavy / 5}", com: ["${size}", 0.2, "${-lean}"], inertia: ["${size}", 1, 1, 0, 0, 0]}}
+wheels:
+  - {name: w, frame: wheel, radius: "${size}", width: "${size / 3}", friction: "${lift + 0.5}"}
+  - {name: v, frame: stuck, center: [0, "${lift}", "${-size}"], axis: ["${lean}", 1, 0], radius: "${size + 0.02}",
+     width: 0.05, tread: "${0.01 if size > 0.02 and not lean > 1 else 0.03}"}
+contacts:
+  - {name: f, frame: fix3, center: [0, "${size * cos(pi / 3)}", 0], radius: "${round(lift / 7, 3)}",
+     friction: "${gear**2}"}
+belly: [{frame: head, point: [0, 0, "${-reach}"]}, {frame: slider, point: [0.1, 0, 0]}]
+springs:
+  - {name: s, frames: [{link: mast, xyz: [0, "${size}", 0.1], rpy: [0.1, "${lean}", 0]}, fore],
+     stiffness: "${1000 * size}", preload: "${heavy}", length_max: "${3 + size}"}
+  - {name: t, joint: swing, stiffness: "${hypot(heavy, 3)}", rest: "${-lean}", preload: "${gear}"}
+loops:
+  - {name: a, frames: [{link: hand, xyz: [0, 0, "${size}"]}, fore], type: weld, at: zero}
+  - {name: b, frames: [slider, base], type: distance, length: "${max(size, lift)}"}
+  - {name: c, frames: [{link: arm, rpy: [0, "${lean}", "${size}"]}, fore], type: hinge, axis: [0, 1, "${size}"]}
+  - {name: d, frame: {link: mast, rpy: ["${lean}", 0, 0]}, type: level, axis: ["${size}", 1, 0]}
+couplings:
+  - {name: k, joints: {slide: "${2 + size}", spin: -1, lock: "${heavy}"}, offset: "${math.sin(lean)}"}
+tracks:
+  - {name: belt, wheels: [v,
+      {frame: stuck, center: ["${-reach}", 0.3, "${lift}"], axis: ["${2 * lean}", 2, 0], radius: "${size}"},
+      {frame: lock, center: [0, 0, "${2 + lift}"], axis: ["${lean}", 1, 0], radius: 0.1, side: outside}],
+     length: "${4 + lift}"}
+postures: {home: {swing: 0.25}}
+parameters:
+  reach: {default: 0.6, bounds: [0.3, 0.9]}
+  lift: {default: 0.2, bounds: [0.05, 0.4]}
+  heavy: {default: 12, bounds: [1, 30]}
+  gear: {default: 0.5, bounds: [-1, 1]}
+  stop: {default: 0.4, bounds: [0.1, 0.8]}
+  lean: {default: 0.3, bounds: [0.1, 0.5]}
+  size: {default: 0.1, bounds: [0.05, 0.2]}
+"""
+
 
 def kit(folder, xacro=XACRO, sidecar=SIDECAR):
     path = folder / "kit.urdf.xacro"
@@ -115,8 +155,10 @@ def kit(folder, xacro=XACRO, sidecar=SIDECAR):
     return rp.load(path)
 
 
-@pytest.fixture(params=["rocker_bogie", "hit_mrii", "kit"])
+@pytest.fixture(params=["rocker_bogie", "hit_mrii", "kit", "stated"])
 def rover(request, tmp_path):
+    if request.param == "stated":
+        return kit(tmp_path, sidecar=STATED)
     if request.param == "kit":
         return kit(tmp_path).with_payload([(3.0, (0.1, 0.2, 0.3))])
     return rp.load(request.param)

@@ -82,13 +82,14 @@ def test_a_parameter_that_is_no_argument(tmp_path):
     (tmp_path / "rover.yaml").write_text("schema: 1\nparameters: {sise: {default: 3}}\n")
     assert message(path) == (
         f"{tmp_path}/rover.yaml: parameters.sise: no <xacro:arg> of that name "
-        f"in a.urdf.xacro; did you mean 'size'?"
+        f"in a.urdf.xacro, and no formula of the sidecar uses it; did you mean 'size'?"
     )
 
 
 def test_a_parameter_of_a_plain_urdf(make):
     assert make.refused(*make.pair(), sidecar="parameters: {t: {default: 1}}") == (
-        "rover.yaml: parameters.t: bot.urdf is plain URDF without arguments; remove it"
+        "rover.yaml: parameters.t: bot.urdf is plain URDF without arguments, "
+        "and no formula of the sidecar uses it; remove it"
     )
 
 

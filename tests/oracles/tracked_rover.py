@@ -19,15 +19,18 @@ def _plain() -> Any:
 
 
 def tracked(
-    track: Mapping[str, Any] | None = None, arm_axis: Sequence[float] = (0.0, 1.0, 0.0), beside: float = 0.0
+    track: Mapping[str, Any] | None = None,
+    arm_axis: Sequence[float] = (0.0, 1.0, 0.0),
+    beside: float = 0.0,
+    driven: bool = False,
 ) -> Any:
     """The rover; w1 the sprocket, w2 idler at the front of an arm, w3 and w4 on the ground."""
-    if track is None and tuple(arm_axis) == (0.0, 1.0, 0.0) and beside == 0.0:
+    if track is None and tuple(arm_axis) == (0.0, 1.0, 0.0) and beside == 0.0 and not driven:
         return _plain()
-    return _made(track or {}, tuple(arm_axis), beside)
+    return _made(track or {}, tuple(arm_axis), beside, driven)
 
 
-def _made(track: Mapping[str, Any], arm_axis: Sequence[float], beside: float) -> Any:
+def _made(track: Mapping[str, Any], arm_axis: Sequence[float], beside: float, driven: bool = False) -> Any:
     builder = Builder("tracked")
     builder.link("base_link", 20.0, (0.0, 0.0, 0.05))
     arms = {"f": (0.3, arm_axis), "m": (0.0, (0.0, 1.0, 0.0)), "r": (-0.3, (0.0, 1.0, 0.0))}
@@ -38,8 +41,11 @@ def _made(track: Mapping[str, Any], arm_axis: Sequence[float], beside: float) ->
         builder.link(f"arm_{name}_link", 0.4, (-0.05, 0.0, -0.05))
     builder.sidecar["passive"] = [f"arm_{name}" for name in arms]
     del builder.sidecar["actuated"]
+    if driven:
+        builder.joint("drive", "base_link", "sprocket_link", (-0.45, 0.0, 0.1), kind="continuous")
+        builder.link("sprocket_link", 1e-6)
     places = {
-        "w1": ("base_link", (-0.45, 0.0, 0.1), 0.07),
+        "w1": ("sprocket_link", (0.0, 0.0, 0.0), 0.07) if driven else ("base_link", (-0.45, 0.0, 0.1), 0.07),
         "w2": ("arm_f_link", (0.2, beside, 0.02), 0.08),
         "w2b": ("arm_f_link", (0.08, 0.0, -0.12), 0.06),
         "w3": ("arm_m_link", (-0.02, 0.0, -0.14), 0.06),
@@ -61,6 +67,6 @@ def _made(track: Mapping[str, Any], arm_axis: Sequence[float], beside: float) ->
         {"name": f"s_{name}", "joint": f"arm_{name}", "stiffness": 150.0, "preload": 6.0} for name in arms
     ]
     builder.sidecar["loops"] = [{"name": "plane", "type": "level", "frame": "base_link", "axis": [0, 1, 0]}]
-    builder.sidecar["tracks"] = [{"name": "t", "wheels": list(WHEELS), "length": 2.2, **track}]
+    builder.sidecar["tracks"] = [{"name": "t", "wheels": list(WHEELS), "length": 2.6, **track}]
     with tempfile.TemporaryDirectory() as folder:
         return builder.load(Path(folder))

@@ -15,6 +15,7 @@ from rover_pin.viz.page.html import page, write_whole
 from rover_pin.viz.page.pack import Pack
 from rover_pin.viz.page.raster import ground_raster
 from rover_pin.viz.page.robots import robot
+from rover_pin.viz.page.sweep import sweep_of
 from rover_pin.viz.units import ranked, shown, title_of
 
 if TYPE_CHECKING:
@@ -73,7 +74,7 @@ def _values(dataset: xr.Dataset, name: str) -> tuple[Array, str]:
     """A measure's values and which way is better; the lightest and heaviest wheel are measures too."""
     if name in dataset:
         return np.asarray(dataset[name].values, dtype=np.float64), str(dataset[name].attrs["better"])
-    loads = np.asarray(dataset["load_n"].values, dtype=np.float64)
+    loads = np.asarray(dataset["load_n"].values, dtype=np.float64)[:, _bearing(dataset)]
     return (loads.min(axis=1), "high") if name == "lightest_wheel" else (loads.max(axis=1), "low")
 
 
@@ -134,6 +135,7 @@ def study_page(
         "reshaped": any(name.removeprefix("parameter_") in rover.parameters for name in _varied(dataset)),
         "columns": {name: column.about() for name, column in columns.items()},
         "status_words": STATUS_WORDS,
+        "sweep": sweep_of(dataset),
         "ground": ground,
         "robots": [about for about, _ in variants],
         "exact": exact,
@@ -157,6 +159,8 @@ def page_columns(dataset: xr.Dataset) -> dict[str, Column]:
     loads = np.asarray(dataset["load_n"].values, dtype=np.float64)
     for k, wheel in enumerate(dataset["wheel"].values):
         columns[f"load_n/{wheel}"] = numbers(loads[:, k])
+    for k, track in enumerate(dataset["track"].values if "tension_n" in dataset else ()):
+        columns[f"tension_n/{track}"] = numbers(dataset["tension_n"].values[:, k])
     for about in _load_measures(dataset):
         columns[about["name"]] = numbers(_values(dataset, about["name"])[0])
     for k, joint in enumerate(dataset["joint"].values):
@@ -191,8 +195,14 @@ def _about_measure(dataset: xr.Dataset, name: str) -> dict[str, Any]:
     }
 
 
+def _bearing(dataset: xr.Dataset) -> list[int]:
+    """Which of the wheels should carry."""
+    idle = str(dataset["load_n"].attrs.get("auxiliary", "")).split(", ")
+    return [k for k, name in enumerate(dataset["wheel"].values) if str(name) not in idle]
+
+
 def _load_measures(dataset: xr.Dataset) -> list[dict[str, Any]]:
-    if not dataset.sizes.get("wheel"):
+    if not dataset.sizes.get("wheel") or not _bearing(dataset):
         return []
     pairs = (("lightest_wheel", "Lightest wheel", "high"), ("heaviest_wheel", "Heaviest wheel", "low"))
     return [

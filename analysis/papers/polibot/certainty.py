@@ -1,8 +1,8 @@
 """How well the tables fix a geometry: directions that nothing fixes, and the interval of each length.
 
-An interval is found by moving one length step by step while all others are fitted anew (the profile), until a target is
-missed by more than it leaves open. Every geometry on the way was solved, so an interval is one that certainly holds; the
-true one may be wider.
+An interval is found by moving one length step by step while all others are fitted anew (the profile), until
+a target is missed by more than it leaves open. Every geometry on the way was solved, so an interval is one
+that certainly holds; the true one may be wider.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def directions(fit: Fit, use: int = ALL) -> Directions:
 
 
 def interval(fit: Fit, length: int, use: int = ALL) -> tuple[Fit, Fit]:
-    """Geometries with the least and the greatest value of a length at which the first `use` targets are all met."""
+    """The geometries with the least and the greatest value of a length that meet the first `use` targets."""
     return reach(fit, length, -1.0, use), reach(fit, length, 1.0, use)
 
 

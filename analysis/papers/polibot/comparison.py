@@ -22,8 +22,9 @@ HIGHEST, COUNT = 0.065, 53
 """m, as high as the first road wheel's radius; heights computed."""
 
 INDIRECT = (
-    "an indirect look: the paper gives no springs, track or upper wheels of the X-shaped robot; ours are chosen, its"
-    " track for Polibot's first tension and its upper wheels for the height at which the tension ends"
+    "an indirect look: the paper gives no springs, track or upper wheels of the X-shaped"
+    " robot; ours are chosen,"
+    " its track for Polibot's first tension and its upper wheels for the height at which the tension ends"
 )
 
 
@@ -90,7 +91,8 @@ def _findings(ours: Climb, theirs: Climb) -> list[Finding]:
         claimed("Polibot: least tension up to 65 mm, of the first", "%", "well above zero", least,
                 least > 50.0, where="Fig. 21", why="above half of it counts; not used in the identification"),
         compared("X-shaped: height at which the tension ends, of the radius", "%", 35.0, slack, within=2.5,
-                 where="Fig. 21", used=True, why="the height of the X-shaped robot's upper wheels was fitted to it"),
+                 where="Fig. 21", used=True,
+                 why="the height of the X-shaped robot's upper wheels was fitted to it"),
         claimed("X-shaped: sigma_N on level ground, of Polibot's", "", "lower",
                 theirs.spread[0] / ours.spread[0], theirs.spread[0] < ours.spread[0], where="Fig. 20",
                 at_most=PARTLY, why=INDIRECT),

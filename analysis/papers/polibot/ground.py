@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 SPACING = 0.005
 REACH = 1.2
 HALF, RAMP = 0.045, 0.03
-"""m: a wheel that is lifted moves along by up to 35 mm and has to stay on top; its neighbours are 190 mm off."""
+"""m: a wheel that is lifted moves along by up to 35 mm and has to stay on top; its neighbours are 190 mm
+off."""
 
 
 def obstacle(x: float, height: float) -> Terrain:

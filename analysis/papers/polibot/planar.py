@@ -1,9 +1,10 @@
 """The paper's planar half model, quick and with exact derivatives by its lengths, for identifying them.
 
-mm, N, rad; X rearwards, Z up, angles counter-clockwise, as the paper has them. One set of equations for many cases:
-the 21 of the paper without motion resistance (T1 = T2, no tractions: 15 are left), corrected, the track's and the
-springs' as complements: slack or taut, on the stop or pressed. Derivatives are complex steps: exact, no step to choose.
-Wheels are held on the ground, so that a load that would lift one comes out negative.
+mm, N, rad; X rearwards, Z up, angles counter-clockwise, as the paper has them. One set of equations for
+many cases: the 21 of the paper without motion resistance (T1 = T2, no tractions: 15 are left), corrected,
+the track's and the springs' as complements: slack or taut, on the stop or pressed. Derivatives are complex
+steps: exact, no step to choose. Wheels are held on the ground, so that a load that would lift one comes out
+negative.
 
 A vector is an array with two rows, X and Z; all else is behind them.
 """
@@ -110,9 +111,7 @@ def solve(lengths: Array, inputs: Inputs, start: Array) -> Solved:
     return Solved(state, -_linear(slope, by_length), _size(value) < 1e-6)
 
 
-def _shortened(
-    state: Array, step: Array, size: Array, lengths: Array, inputs: Inputs
-) -> tuple[Array, Array]:
+def _shortened(state: Array, step: Array, size: Array, lengths: Array, inputs: Inputs) -> tuple[Array, Array]:
     """The state after a step that makes the equations' largest residual smaller, case by case."""
     share = np.ones(inputs.count)
     best, best_size = state, size
@@ -144,20 +143,22 @@ def _linear(slope: Array, right: Array) -> Array:
     matrix = np.moveaxis(slope, -1, 0)
     sides = np.moveaxis(right, -1, 0)
     flat = sides.ndim == 2
+    found: Any
     try:
         found = np.linalg.solve(matrix, sides[..., None] if flat else sides)
     except np.linalg.LinAlgError:
         found = np.stack([np.linalg.lstsq(m, s, rcond=None)[0] for m, s in
                           zip(matrix, sides[..., None] if flat else sides, strict=True)])  # fmt: skip
     found = found[..., 0] if flat else found
-    return np.moveaxis(found, 0, -1)
+    solved: Array = np.moveaxis(found, 0, -1)
+    return solved
 
 
 def equations(state: Numbers, lengths: Numbers, inputs: Inputs) -> Numbers:
     """(15, ...) residuals: mm, N, moments over 100 mm.
 
-    In order: X_P = 0, gaps of wheels 3 to 6, vertical forces, moments about A (subframe with its hinges), F (both
-    bogie arms), E, D; track; springs 1 to 3.
+    In order: X_P = 0, gaps of wheels 3 to 6, vertical forces, moments about A (subframe with its hinges), F
+    (both bogie arms), E, D; track; springs 1 to 3.
     """
     g = dict(zip(LENGTHS, lengths, strict=True))
     pose, loads, tension, forces = state[:7], state[7:11], state[11], state[12:15]
@@ -197,7 +198,7 @@ def equations(state: Numbers, lengths: Numbers, inputs: Inputs) -> Numbers:
 
 
 def points(pose: Numbers, g: Mapping[str, Numbers], front_arm: Numbers) -> dict[str, Any]:
-    """Appendix B and Fig. 5: every lettered point, (2, ...) mm; `G` is a function of the mass centre's place."""
+    """Appendix B and Fig. 5: every lettered point, (2, ...) mm; `G` is a function of the mass centre."""
     x, z, theta, t1, t2, t3, t4 = pose
     zero = 0.0 * (x + z + g["d1"] + front_arm)
     a = np.array([x + zero, z + zero])
@@ -232,13 +233,11 @@ def arcs(lengths: Array, state: Array, inputs: Inputs) -> Array:
     return np.array(belt([p[name] for name in "AOPKIM"], [g[f"r{k}"] for k in range(1, 7)])[2])
 
 
-def belt(
-    wheels: Sequence[Numbers], radii: Sequence[Numbers]
-) -> tuple[Numbers, list[Numbers], list[Numbers]]:
-    """Length of a belt around wheels, the force on each centre at unit tension, the arcs: Appendix D, corrected.
+def belt(wheels: Sequence[Numbers], radii: Sequence[Numbers]) -> tuple[Numbers, list[Numbers], list[Numbers]]:
+    """Length of a belt around wheels, forces on the centres at unit tension, arcs: Appendix D, corrected.
 
-    A wheel that would not touch counts with a negative arc: on level ground the road wheels between the ends lie on
-    the belt's straight part, where length and forces are the same either way.
+    A wheel that would not touch counts with a negative arc: on level ground the road wheels between the
+    ends lie on the belt's straight part, where length and forces are the same either way.
 
     Args:
         wheels: centres (2, ...), counter-clockwise.
@@ -251,7 +250,9 @@ def belt(
         apart, less = wheels[j] - wheels[i], radii[i] - radii[j]
         square = apart[0] ** 2 + apart[1] ** 2
         span = np.sqrt(square - less**2)
-        along.append(np.array([span * apart[0] - less * apart[1], span * apart[1] + less * apart[0]]) / square)
+        along.append(
+            np.array([span * apart[0] - less * apart[1], span * apart[1] + less * apart[0]]) / square
+        )
         spans.append(span)
     length = sum(spans)
     pulls, turns = [], []

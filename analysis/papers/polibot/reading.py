@@ -1,4 +1,4 @@
-"""A stance of the half model in the paper's words: mm, deg, N, X rearwards from wheel 3's contact, nose down positive."""
+"""A stance in the paper's words: mm, deg, N; X rearwards from wheel 3's contact, nose down positive."""
 
 from __future__ import annotations
 

@@ -1,13 +1,13 @@
 """From the paper's tables to a geometry: bounded least squares from many far starts, in two stages.
 
-Table 6 says how the robot stands at rest, so that a geometry need not be solved for a stance at first: the first stage
-makes the equations hold at that stance, for lengths drawn anywhere between bounds. The second stage solves all cases
-and fits every target.
+Table 6 says how the robot stands at rest, so that a geometry need not be solved for a stance at first: the
+first stage makes the equations hold at that stance, for lengths drawn anywhere between bounds. The second
+stage solves all cases and fits every target.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,8 +24,9 @@ BOUNDS = {
     "alpha4_deg": (40, 120), "r1": (60, 100), "r2": (50, 100), "r3": (65, 65), "r4": (50, 80), "r5": (50, 80),
     "r6": (50, 80),
 }  # fmt: skip
-"""mm, deg: what a robot of these outer dimensions may have, without regard to the tables. Section 5.3 gives r3 = 65 mm;
-the sprocket's working radius lies between a pitch radius of 70.3 mm less some, and its outer 100 mm."""
+"""mm, deg: what a robot of these outer dimensions may have, without regard to the tables. Section 5.3 gives
+r3 = 65 mm; the sprocket's working radius lies between a pitch radius of 70.3 mm less some, and its outer
+100 mm."""
 
 LOWER, UPPER = (np.array([BOUNDS[name][k] for name in LENGTHS], dtype=np.float64) for k in (0, 1))
 FREE = np.flatnonzero(UPPER > LOWER)
@@ -38,7 +39,8 @@ SHORT = 0.05
 """Weight of a step over the bounds against a miss."""
 
 EVEN, NEARLY = 8, 5.0
-"""Where squares end with a target just missed, below the second number, sums of this power even the misses out."""
+"""Where squares end with a target just missed, below the second number, sums of this power even the misses
+out."""
 
 SLIGHT = 1e-6
 """rad: by how much a wheel may keep off the belt; on level ground the middle ones just touch it."""
@@ -129,11 +131,12 @@ def worst(fit: Fit, use: int) -> float:
 
 
 def closer(fit: Fit, use: int, *, held: int | None = None, most: int = 60, enough: float = ENOUGH) -> Fit:
-    """The second stage: Gauss and Newton's steps within the bounds and a box, until the first `use` targets are met.
+    """The second stage: Gauss and Newton's steps in a box, until the first `use` targets are met.
 
     Least squares first; where they end with a target just missed, higher powers, which even the misses out.
 
-    Of the steps that do equally well the shortest is taken, so that what nothing fixes stays near where it was.
+    Of the steps that do equally well the shortest is taken, so that what nothing fixes stays near where it
+    was.
 
     Args:
         fit: where to begin.
@@ -178,7 +181,7 @@ def _sum(fit: Fit, use: int, power: int) -> float:
 
 
 def _standing(start: Array) -> Array:
-    """The first stage: lengths, loads, tension and spring forces with which the stance of Table 6 is at rest."""
+    """The first stage: lengths and forces with which the stance of Table 6 is at rest."""
     case = _one_case(targets.inputs(), targets.BASELINE)
     first = targets.first_guess()[:, 0]
     low = np.concatenate([LOWER[FREE], np.full(4, targets.LEAST_LOAD), [20.0], np.full(3, -200.0)])
@@ -224,13 +227,15 @@ def _least_squares(
         return kept[key]
 
     inside = np.clip(start, low + 1e-6 * (high - low), high - 1e-6 * (high - low))
-    found = least_squares(lambda v: both(v)[0], inside, jac=lambda v: both(v)[1], bounds=(low, high),
-                          x_scale=high - low, max_nfev=most)  # fmt: skip
+
+    def value_of(v: Array) -> Array:
+        return both(v)[0]
+
+    def slope_of(v: Array) -> Array:
+        return both(v)[1]
+
+    found = least_squares(
+        value_of, inside, jac=slope_of, bounds=(low, high), x_scale=high - low, max_nfev=most
+    )
     result: Array = found.x
     return result
-
-
-def searches(count: int, seed: int) -> Iterator[Fit]:
-    """One fit for every start."""
-    for start in starts(count, seed):
-        yield search(start)

@@ -23,8 +23,9 @@ def chart(cases: Stances) -> Chart:
         "55 mm under W6": cases.rear,
     }
     panels = tuple(_panel(name, stance) for name, stance in named.items())
-    return Chart("fig_9_10", "Figs 9 and 10: the stances of Tables 6 to 8 from the side", "x [mm]", panels,
-                 "Track, wheels and ground; front to the right, over the sprocket's axis.", beside=True)  # fmt: skip
+    title = "Figs 9 and 10: the stances of Tables 6 to 8 from the side"
+    note = "Track, wheels and ground; front to the right, x from the sprocket's axis."
+    return Chart("fig_9_10", title, "x [mm]", panels, note, beside=True)
 
 
 def _panel(name: str, stance: Stance) -> Panel:
@@ -34,7 +35,12 @@ def _panel(name: str, stance: Stance) -> Panel:
     for wheel in stance.rover.wheels:
         x, z = centers[wheel.name]
         curves.append(
-            Curve("", 1e3 * (x + wheel.radius * np.cos(turn)), 1e3 * (z + wheel.radius * np.sin(turn)), faint=True)
+            Curve(
+                "",
+                1e3 * (x + wheel.radius * np.cos(turn)),
+                1e3 * (z + wheel.radius * np.sin(turn)),
+                faint=True,
+            )
         )
     at = kinematics(stance)
     curves += [
@@ -44,4 +50,6 @@ def _panel(name: str, stance: Stance) -> Panel:
     x = np.linspace(-0.45, 0.55, 401)
     curves.append(Curve("", 1e3 * x, 1e3 * stance.terrain.height(x, np.zeros_like(x))))
     found = read(stance)
-    return Panel(f"{name}\npitch {found.theta:.2f} deg, tension {found.tension:.0f} N", tuple(curves), equal=True)
+    return Panel(
+        f"{name}\npitch {found.theta:.2f} deg, tension {found.tension:.0f} N", tuple(curves), equal=True
+    )

@@ -1,4 +1,4 @@
-"""Figs 13 to 18: mass, track length and front-arm length against pitch, wheels in contact, sigma_N and tension.
+"""Figs 13 to 18: mass, track length and front arm against pitch, contacts, sigma_N and tension.
 
 Each sweep is a Study: a range of one parameter of the half model on level ground.
 """
@@ -47,7 +47,7 @@ class Sweep:
         return float(np.interp(change, self.change, getattr(self, what)))
 
     def lifted(self, outwards: float) -> float:
-        """The change [%] nearest to none, in that direction, at which fewer than four wheels carry; NaN: nowhere."""
+        """The change [%] nearest to none, outwards, at which fewer than four wheels carry; NaN: nowhere."""
         there = (self.touching < 4) & (np.sign(self.change) == np.sign(outwards))
         return float(self.change[there][np.argmin(np.abs(self.change[there]))]) if there.any() else np.nan
 
@@ -95,8 +95,8 @@ def _mass(s: Sweep) -> list[Finding]:
     share = 100.0 * s.at(65.0, "tension") / s.at(0.0, "tension")
     fewest = int(np.min(s.touching[until]))
     return [
-        compared("mass +20 %: fall of pitch", "deg", 0.5, s.at(0.0, "theta") - s.at(20.0, "theta"), within=0.1,
-                 where="Fig. 13", used=True, why=f"'only half a degree'; {USED}"),
+        compared("mass +20 %: fall of pitch", "deg", 0.5, s.at(0.0, "theta") - s.at(20.0, "theta"),
+                 within=0.1, where="Fig. 13", used=True, why=f"'only half a degree'; {USED}"),
         claimed("steepest rise of pitch with mass", "deg/%", "pitch falls", _rise(s.change[until], theta),
                 _rise(s.change[until], theta) <= 0.0, where="Fig. 13", used=True,
                 why=f"over +0 to +65 %; negative: it falls everywhere; {USED}"),
@@ -104,8 +104,8 @@ def _mass(s: Sweep) -> list[Finding]:
                 why=f"over +0 to +65 %; {USED}"),
         claimed("mass at which sigma_N is largest", "%", "rises, then falls", top,
                 0.0 < top < 65.0, where="Fig. 13",
-                why="ours falls from the baseline on, so its largest value is at the end of the range: the first"
-                " rise is not in the identified geometry" if top <= 0.0 else "largest within the range"),
+                why="ours falls from the baseline on, so it is largest at the end of the range: the first rise"
+                " is not in the identified geometry" if top <= 0.0 else "largest within the range"),
         claimed("sigma_N at +65 % over sigma_N at the baseline", "", "below its maximum",
                 s.at(65.0, "spread") / s.at(0.0, "spread"), s.at(65.0, "spread") < float(np.max(spread)),
                 where="Fig. 13", used=True, why=f"the later fall; {USED}"),
@@ -162,14 +162,14 @@ def _charts(mass: Sweep, length: Sweep, arm: Sweep) -> list[Chart]:
     for (s, name), kpi, pull in zip(names, (13, 17, 18), (14, 15, 16), strict=True):
         x_label = f"change of {name} [%]"
         charts += [
-            Chart(f"fig_{kpi}", f"Fig. {kpi}: {name} and the performance indicators", x_label, _panels(s, name)),
+            Chart(f"fig_{kpi}", f"Fig. {kpi}: {name} and the indicators", x_label, _panels(s)),
             Chart(f"fig_{pull}", f"Fig. {pull}: {name} and track tension", x_label,
                   (Panel("tension [N]", (Curve("", s.change, s.tension),), _pull_marks(s)),)),
         ]  # fmt: skip
     return sorted(charts, key=lambda chart: chart.key)
 
 
-def _panels(s: Sweep, name: str) -> tuple[Panel, ...]:
+def _panels(s: Sweep) -> tuple[Panel, ...]:
     marks: tuple[Mark, ...] = ()
     lifts = {"track_length": (-0.15, "W6 lifts at -0.15 %"), "front_arm_length": (0.7, "W6 lifts at +0.7 %")}
     fall: tuple[Mark, ...] = ()

@@ -116,17 +116,16 @@ def _errors(rest: Reading, front: Reading, rear: Reading) -> list[Finding]:
         for name in ("Z_A", "theta")
     }
     why = "follows from columns that the geometry was identified from"
-    one = {"used": True, "why": why}
+    said = (
+        ("mean error to the real robot, Table 6", 4.0, float(np.mean(off)), "Section 5.1.1"),
+        ("largest error to the real robot, Table 6", 10.0, max(off), "Section 5.1.1"),
+        ("largest pitch error, Table 8", 10.0, max(steps["theta"]), "Section 5.1.2"),
+        ("largest height error, Table 8", 3.0, max(steps["Z_A"]), "Section 5.1.2"),
+    )
     return [
-        compared("mean error to the real robot, Table 6", "%", 4.0, float(np.mean(off)), within=0.5,
-                 where="Section 5.1.1", **one),
-        compared("largest error to the real robot, Table 6", "%", 10.0, max(off), within=0.5,
-                 where="Section 5.1.1", **one),
-        compared("largest pitch error, Table 8", "%", 10.0, max(steps["theta"]), within=0.5,
-                 where="Section 5.1.2", **one),
-        compared("largest height error, Table 8", "%", 3.0, max(steps["Z_A"]), within=0.5,
-                 where="Section 5.1.2", **one),
-    ]  # fmt: skip
+        compared(name, "%", paper, found, within=0.5, where=where, used=True, why=why)
+        for name, paper, found, where in said
+    ]
 
 
 def _prose(rest: Reading, heavy: Reading, front: Reading, rear: Reading) -> list[Finding]:
@@ -159,7 +158,7 @@ def _independent(stances: Stances) -> list[Finding]:
         compared("wheelbase, W3 to W6", "mm", 630.0, base, within=5.0, where="Section 5.3",
                  why="at rest on level ground; not used in the identification"),
         claimed("sprocket's teeth engaged", "", "at least 3", teeth, teeth >= 3.0, where="Section 3",
-                why="arc of the track on the sprocket over the pitch of 26 mm; not used in the identification"),
+                why="arc of the track on the sprocket over the pitch of 26 mm; not used in identifying"),
     ]  # fmt: skip
 
 

@@ -1,8 +1,8 @@
 """What a geometry of Polibot is held against: the tables' model columns and the statements that were used.
 
-Each target is a number with half of its last digit; of a statement in words, with what the words leave open. That W6
-lifts at -0.15 % or +0.7 % is read off a sweep of unknown steps: a tenth is left open. A geometry fits where every target
-is met to that.
+Each target is a number with half of its last digit; of a statement in words, with what the words leave
+open. That W6 lifts at -0.15 % or +0.7 % is read off a sweep of unknown steps: a tenth is left open. A
+geometry fits where every target is met to that.
 """
 
 from __future__ import annotations
@@ -76,9 +76,13 @@ TARGETS = (
     Target("Fig. 14: tension at +65 % mass", MASS_65, "T", 15.0, 15.0),
     Target("Fig. 17: load of W6 at -0.15 % track", SHORT_TRACK, "N6", 0.0, 3.5),
     Target("Fig. 18: load of W6 at +0.7 % front arm", LONG_ARM, "N6", 0.0, 3.5),
-    *(Target(f"rest: least load of W{k}", BASELINE, f"N{k}", LEAST_LOAD, 1.0, least=True) for k in (3, 4, 5, 6)),
+    *(
+        Target(f"rest: least load of W{k}", BASELINE, f"N{k}", LEAST_LOAD, 1.0, least=True)
+        for k in (3, 4, 5, 6)
+    ),
 )
-"""The last four count only where a load is less. In the two before them, 3.5 N are about a tenth of the change."""
+"""The last four count only where a load is less. In the two before them, 3.5 N are about a tenth of the
+change."""
 
 TABLES = 13
 """How many of them, from the first on, are numbers of Tables 6 to 8."""
@@ -92,7 +96,7 @@ def first_guess() -> Array:
 
 
 def misses(solved: Solved) -> tuple[Array, Array]:
-    """(t,) how far each target is missed, over what it leaves open, and (t, l) the derivatives by the lengths."""
+    """(t,) by how much each target is missed, over what it leaves open; (t, l) derivatives by the lengths."""
     values, slopes = [], []
     for target in TARGETS:
         row = STATE.index(target.what)

@@ -1,7 +1,8 @@
 """Fig. 12: the climb of a vertical wall, as far as forces along gravity go.
 
-Against the wall the idler is pushed back and, by the track, pulled up: forces across gravity, for which the paper
-gives neither friction nor the motors' effort. Contacts here carry along gravity only, so the wall cannot be had. What
+Against the wall the idler is pushed back and, by the track, pulled up: forces across gravity, for which the
+paper gives neither friction nor the motors' effort. Contacts here carry along gravity only, so the wall
+cannot be had. What
 can: the front lifted by a ledge, first under the idler, then under the front road wheel, until the way ends.
 """
 
@@ -31,6 +32,7 @@ UNDER_IDLER = np.linspace(0.005, 0.09, 6)
 UNDER_WHEEL = np.array([0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.42])
 """m: heights of the ledges; under the idler above its lowest point at rest."""
 
+NOTE = "No wall: a ledge lifts the front by forces along gravity."
 REASON = (
     "the wall's push and the track's pull up it are forces across gravity, of which the paper gives neither"
     " friction nor effort; ours has forces along gravity only"
@@ -85,8 +87,9 @@ def results(rover: Rover, rest: Stance) -> tuple[list[Finding], list[Chart]]:
                 NOT_REPRODUCED, f"until the ledge's corner slips past the idler; {REASON}", "Fig. 12"),
         Finding("lowest pitch of the climb, front wheel on a ledge", "deg", -90.0, float(by_wheel.theta[k]),
                 NOT_REPRODUCED, f"as far as ledges were tried, 0.42 m; {REASON}", "Fig. 12"),
-        Finding("wheels that carry there", "", "W6 alone, and the wall", by_wheel.wheels[k].upper(), NOT_REPRODUCED,
-                f"the middle wheels are off the ground as in the paper, the ledge takes the wall's place; {REASON}",
+        Finding("wheels that carry there", "", "W6 alone, and the wall", by_wheel.wheels[k].upper(),
+                NOT_REPRODUCED,
+                f"the middle wheels are off the ground too, the ledge takes the wall's place; {REASON}",
                 "Fig. 12"),
         Finding("mean error of pitch to the measured climb, to -40 deg", "%", 4.7, None, NOT_REPRODUCED,
                 f"its measurements are only in the figure; {REASON}", "Fig. 12"),
@@ -103,5 +106,5 @@ def _chart(by_idler: Lift, by_wheel: Lift) -> Chart:
         ),
         (Mark(None, -40.0, "paper: the experiment ends"), Mark(None, -90.0, "paper: the model ends")),
     )
-    return Chart("fig_12", "Fig. 12: the front lifted, in place of the wall climb", "rise of the idler [mm]", (panel,),
-                 "No wall: a ledge lifts the front by forces along gravity.")  # fmt: skip
+    return Chart("fig_12", "Fig. 12: the front lifted, in place of the wall climb",
+                 "rise of the idler [mm]", (panel,), NOTE)  # fmt: skip

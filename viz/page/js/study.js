@@ -7,6 +7,7 @@ import { MapView, cellValues, cellsOf } from "./map.js";
 import { scaleOf } from "./colours.js";
 import { drawLegend } from "./legend.js";
 import { Plots } from "./plots.js";
+import { Sweep } from "./sweep.js";
 import { Table } from "./table.js";
 import { Picture } from "./picture.js";
 import { showDetails } from "./details.js";
@@ -107,12 +108,16 @@ function start({ header, segments }) {
   const map = new MapView(byId("map"), byId("map-tip"), state);
   const table = new Table(byId("table"), state);
   const plots = new Plots(byId("plots"), state);
+  const sweep = header.sweep ? new Sweep(byId("sweep"), state) : null;
+  for (const id of ["map-card", "plots"]) byId(id).hidden = sweep !== null;
+  byId("sweep").hidden = sweep === null;
   let picture = null;
   const chosen = () => showDetails(state, picture.show());
   state.recolour = () => {
     colour();
     map.draw();
     plots.draw();
+    sweep?.draw();
     table.draw();
     picture.paint();
     chosen();
@@ -130,6 +135,7 @@ function start({ header, segments }) {
     remember();
     map.draw();
     plots.draw();
+    sweep?.draw();
     table.draw();
     chosen();
   };

@@ -22,7 +22,7 @@ function titled(name) {
 }
 
 function shown(value) {
-  return typeof value === "string" ? value.replace(/_/g, " ") : number(value);
+  return typeof value === "string" ? value.replace(/_/g, " ") : number(value, 4);
 }
 
 export class Table {
