@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rover_pin.analysis.papers.polibot.reading import wheel_centers
 from rover_pin.statics.settle import settle
 from rover_pin.terrain import Terrain
 
@@ -47,7 +48,5 @@ def on_obstacle(rover: Rover, wheel: str, height: float, baseline: Stance) -> St
         height: of the obstacle.
         baseline: the stance on level ground.
     """
-    place = next((c.point[0] for c in baseline.contacts if c.wheel == wheel), None)
-    if place is None:
-        raise ValueError(f"{wheel} is off the level ground")
+    place = wheel_centers(baseline)[wheel][0]
     return settle(rover, obstacle(float(place), height))

@@ -104,8 +104,8 @@ def _mass(s: Sweep) -> list[Finding]:
                 why=f"over +0 to +65 %; {USED}"),
         claimed("mass at which sigma_N is largest", "%", "rises, then falls", top,
                 0.0 < top < 65.0, where="Fig. 13",
-                why="ours falls from the baseline on, so it is largest at the range's end: the first rise"
-                " is not in the identified geometry" if top <= 0.0 else "largest within the range"),
+                why="ours falls from the baseline on, so it is largest at the end of the range: the first"
+                " rise is not in the identified geometry" if top <= 0.0 else "largest within the range"),
         claimed("sigma_N at +65 % over sigma_N at the baseline", "", "below its maximum",
                 s.at(65.0, "spread") / s.at(0.0, "spread"), s.at(65.0, "spread") < float(np.max(spread)),
                 where="Fig. 13", used=True, why=f"the later fall; {USED}"),
