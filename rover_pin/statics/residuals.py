@@ -94,6 +94,8 @@ def _pulling(rover: Rover, at: Kinematics, contacts: Sequence[Contact], resistan
             if contact.wheel not in names:
                 continue
             tangent = resistance.tangents(at, np.array([place[contact.wheel]]), contact.normal[None])[0]
+            if not tangent.any():
+                continue
             spans = tight_spans(
                 wrap, names.index(contact.wheel), driven, resistance.sense * tangent, contact.normal
             )

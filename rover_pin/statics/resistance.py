@@ -7,7 +7,8 @@ Galati, Mantriota and Reina, Analysis of an all-terrain tracked robot, eqs. 8 to
 Under a wheel of a track the ground pulls the cable: its tension rises by F_i past the contact, on the way to
 the driven wheel. A roller without friction gets only what the spans and the ground leave at its centre; the
 driven wheel, whose motor holds it, feels its spans where they touch. A wheel of no track is held by its
-motor, so that its traction acts at the contact. Wheels marked `free` of no track, and feet, pull nothing.
+motor, so that its traction acts at the contact. Wheels marked `free` of no track, feet, and wheels that stand
+clear of their cable's chord, where no track lies between them and the ground, pull nothing.
 """
 
 from __future__ import annotations
@@ -30,6 +31,10 @@ from rover_pin.numerics import Array
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
     from rover_pin.statics.problem import Integers
+
+
+CLEAR = 1e-3
+"""m: a wheel that is farther above its cable's chord does not press it to the ground."""
 
 
 @dataclass(frozen=True)
@@ -80,11 +85,26 @@ class Resistance:
             shape = self.rover.shapes[owner]
             if not isinstance(shape, Wheel) or (shape.free and shape.name not in self._wrapped):
                 continue
+            if shape.name in self._wrapped and self._is_clear(at, shape.name):
+                continue
             along = np.cross(at.rotation(shape.joint) @ shape.axis, normal)
             size = float(np.linalg.norm(along))
             if size > 1e-9:
                 found[i] = along / size if along @ self.heading >= 0.0 else -along / size
         return found
+
+    def _is_clear(self, at: Kinematics, wheel: str) -> bool:
+        """Whether a wheel stands farther than `CLEAR` from the span of its cable that passes it."""
+        track, circle = self._wrapped[wheel]
+        wrap = track.wrap(at)
+        if wrap.following[circle] != OFF:
+            return False
+        count = len(wrap.following)
+        last = next(i for i in _round(circle, -1, count) if wrap.following[i] != OFF)
+        away = (wrap.centers[circle] - wrap.centers[last]) @ wrap.plane[:, :2]
+        u, v = wrap.spans[last, :2]
+        over = float(u * away[1] - v * away[0] + wrap.rho[last] - wrap.rho[circle])
+        return abs(over) > CLEAR
 
     def rows(self, at: Kinematics, owners: Integers, contacts: Array) -> Array:
         """(c, nv) generalised force of a unit traction at each contact, tracks' tensions included.
@@ -98,6 +118,8 @@ class Resistance:
         tangents = self.sense * self.tangents(at, owners, contacts[:, 4:7])
         for i, owner in enumerate(owners.tolist()):
             shape, tangent = self.rover.shapes[owner], tangents[i]
+            if not tangent.any():
+                continue
             wrapped = self._wrapped.get(shape.name)
             if wrapped is None:
                 found[i] = tangent @ at.point_jacobian(shape.joint, contacts[i, 1:4])

@@ -111,11 +111,12 @@ STATED = """
 schema: 1
 up: [0.1, 0.2, 1]
 free: {spin: {type: revolute, axis: [0, "${5 * size}", 0.5], limits: ["${-stop - 0.1}", "${0.5 + size}"]}}
-inertials: {hand: {mass: "${heavy / 5}", com: ["${size}", 0.2, "${-lean}"], inertia: ["${size}", 1, 1, 0, 0, 0]}}
+inertials:
+  hand: {mass: "${heavy / 5}", com: ["${size}", 0.2, "${-lean}"], inertia: ["${size}", 1, 1, 0, 0, 0]}
 wheels:
   - {name: w, frame: wheel, radius: "${size}", width: "${size / 3}", friction: "${lift + 0.5}"}
-  - {name: v, frame: stuck, center: [0, "${lift}", "${-size}"], axis: ["${lean}", 1, 0], radius: "${size + 0.02}",
-     width: 0.05, tread: "${0.01 if size > 0.02 and not lean > 1 else 0.03}"}
+  - {name: v, frame: stuck, center: [0, "${lift}", "${-size}"], axis: ["${lean}", 1, 0],
+     radius: "${size + 0.02}", width: 0.05, tread: "${0.01 if size > 0.02 and not lean > 1 else 0.03}"}
 contacts:
   - {name: f, frame: fix3, center: [0, "${size * cos(pi / 3)}", 0], radius: "${round(lift / 7, 3)}",
      friction: "${gear**2}"}
@@ -127,7 +128,8 @@ springs:
 loops:
   - {name: a, frames: [{link: hand, xyz: [0, 0, "${size}"]}, fore], type: weld, at: zero}
   - {name: b, frames: [slider, base], type: distance, length: "${max(size, lift)}"}
-  - {name: c, frames: [{link: arm, rpy: [0, "${lean}", "${size}"]}, fore], type: hinge, axis: [0, 1, "${size}"]}
+  - {name: c, frames: [{link: arm, rpy: [0, "${lean}", "${size}"]}, fore], type: hinge,
+     axis: [0, 1, "${size}"]}
   - {name: d, frame: {link: mast, rpy: ["${lean}", 0, 0]}, type: level, axis: ["${size}", 1, 0]}
 couplings:
   - {name: k, joints: {slide: "${2 + size}", spin: -1, lock: "${heavy}"}, offset: "${math.sin(lean)}"}

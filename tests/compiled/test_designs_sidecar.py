@@ -1,5 +1,6 @@
 """Designs whose numbers stand in the sidecar alone, against rovers that the loader makes one by one."""
 
+import pickle
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ import rover_pin as rp
 from rover_pin.compiled import SETTLED, Batch
 from rover_pin.compiled.designs import Designs, difference
 from rover_pin.compiled.machine import machine_of, pick
+from rover_pin.description.sidecar import read_sidecar
 from rover_pin.errors import InputError
 
 FIXTURES = Path(__file__).parents[1] / "fixtures"
@@ -51,10 +53,10 @@ parameters:
 
 FOUR_BAR = """
 loops:
-  - {name: leg_l, frames: [{link: knuckle_link_l, xyz: [0, 0, "${-gap}"]}, {link: lower_link_l, xyz: ["${bar}", 0, 0]}],
-     type: planar, axis: [0, "${gap}", 0]}
-  - {name: leg_r, frames: [{link: knuckle_link_r, xyz: [0, 0, "${-gap}"]}, {link: lower_link_r, xyz: ["${bar}", 0, 0]}],
-     type: planar, axis: [0, 1, 0]}
+  - {name: leg_l, frames: [{link: knuckle_link_l, xyz: [0, 0, "${-gap}"]},
+     {link: lower_link_l, xyz: ["${bar}", 0, 0]}], type: planar, axis: [0, "${gap}", 0]}
+  - {name: leg_r, frames: [{link: knuckle_link_r, xyz: [0, 0, "${-gap}"]},
+     {link: lower_link_r, xyz: ["${bar}", 0, 0]}], type: planar, axis: [0, 1, 0]}
 couplings:
   - {name: swing, joints: {upper_l: 1, upper_r: "${gear}"}, offset: "${turn}"}
 actuated: [drive_bl, drive_fl, drive_br, drive_fr]
@@ -72,8 +74,6 @@ parameters:
 
 
 def drawn(rover, n, names=None, seed=0):
-    from rover_pin.description.sidecar import read_sidecar
-
     rng = np.random.default_rng(seed)
     declared = read_sidecar(rover.recipe.sidecar_text, "rover.yaml").parameters
     return {name: rng.uniform(*declared[name].bounds, n) for name in names or declared}
@@ -139,7 +139,17 @@ def test_tracked_designs_at_rest():
     assert agree(rover, values, rp.Terrain.flat(), np.zeros(8), np.zeros(8), np.zeros(8)) >= 7
 
 
-WHEEL = "wheels: [{name: fl, frame: wheel_fl, radius: 0.15, width: 0.1}]\n"
+def test_a_trace_with_formulas_serves_without_the_files(tmp_path):
+    rover = with_sidecar(tmp_path, "four_bar", FOUR_BAR)
+    here = Designs(rover, ["gap", "turn"])
+    values = drawn(rover, 4, here.names)
+    wanted = here.machines(values)
+    there = Designs(pickle.loads(pickle.dumps(rover)), here.names, pickle.loads(pickle.dumps(here.traced)))
+    for path in tmp_path.iterdir():
+        path.unlink()
+    assert there.refusal == ""
+    assert difference(there.machines(values).machine, wanted.machine, 0.0) == ""
+
 
 WRONG = {
     "a radius": ('wheels: [{frame: wheel_fl, radius: "${b}", width: 0.1}]', 0.0, "not above 0"),

@@ -51,7 +51,10 @@ def _unit(dataset: xr.Dataset, name: str) -> tuple[str, float]:
 
 
 def _charts(dataset: xr.Dataset) -> list[dict[str, Any]]:
-    """Attitude, how the wheels carry, tensions, loads, measures; a chart has a line or several."""
+    """Attitude, how the wheels carry, tensions, loads, measures; a chart has a line or several.
+
+    A wheel or track that never carries has none.
+    """
     charts = [_chart(dataset, name, title) for name, title in FIXED if _moves(dataset, name)]
     charts += [
         _chart(dataset, name, title_of(name)) for name in ("touching", "load_spread") if name in dataset
@@ -59,8 +62,12 @@ def _charts(dataset: xr.Dataset) -> list[dict[str, Any]]:
     for name, title, dim in (("tension_n", "Track tension", "track"), ("load_n", "Wheel loads", "wheel")):
         if name in dataset:
             labels = [str(each) for each in dataset[dim].values]
-            lines = [{"name": f"{name}/{label}", "label": label} for label in labels]
-            charts.append({**_chart(dataset, name, title), "lines": lines})
+            lines = [
+                {"name": f"{name}/{label}", "label": label}
+                for k, label in enumerate(labels)
+                if np.nanmax(np.abs(dataset[name].values[:, k]), initial=0.0) > 0.0
+            ]
+            charts += [{**_chart(dataset, name, title), "lines": lines}] if lines else []
     measures = [
         str(name)
         for name in dataset.data_vars

@@ -3,7 +3,7 @@ import { decimalsFor, element, fixed, nice, number, ticks } from "./format.js";
 import { scaleOf } from "./colours.js";
 
 const LINES = ["#0b57a4", "#d95f02", "#d6007f", "#3f8f5b", "#6b4fa0", "#7a6a2b", "#2b8fa3", "#87929d"];
-const [LEFT, RIGHT, TOP, BOTTOM] = [46, 10, 6, 32];
+const [LEFT, RIGHT, TOP, BOTTOM] = [46, 16, 6, 32];
 const FONT = "11px system-ui, sans-serif";
 
 export class Sweep {
