@@ -17,7 +17,7 @@ from rover_pin.analysis.papers.polibot.targets import TARGETS
 from rover_pin.numerics import Array
 
 ALL = len(TARGETS)
-FIRST, LAST = 0.12, 0.015
+FIRST, LAST = 0.1, 0.003
 """First and last step of a length, of its bounds."""
 
 
@@ -76,7 +76,7 @@ def reach(fit: Fit, length: int, sign: float, use: int = ALL) -> Fit:
         value = fit.lengths[length] + sign * step * span
         lengths = fit.lengths.copy()
         lengths[length] = min(value, end) if sign > 0.0 else max(value, end)
-        tried = closer(evaluated(lengths, fit.start, fit.state), use, held=length, most=8)
+        tried = closer(evaluated(lengths, fit.start, fit.state), use, held=length, most=15, enough=0.9)
         if worst(tried, use) <= 1.0:
             fit, step = tried, min(2.0 * step, 2.0 * FIRST)
         else:
