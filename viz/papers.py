@@ -170,12 +170,12 @@ def _row(finding: Finding) -> str:
 def _value(value: float | str | None, none: str = "-") -> str:
     if isinstance(value, str):
         return f'<td class="n words">{html.escape(value)}</td>'
-    text = none if value is None else f"{value:.4g}" if abs(value) > 1e-9 else "0"
+    text = none if value is None else f"{value:.5g}" if abs(value) > 1e-9 else "0"
     return f'<td class="n">{text}</td>'
 
 
 def _percent(value: float | None) -> str:
-    return "" if value is None else f"{value:+.1f} %"
+    return "" if value is None else f"{round(value, 1) + 0.0:+.1f} %"
 
 
 def _tag(verdict: str, text: str) -> str:

@@ -77,8 +77,8 @@ def _reasons(group: Sequence[Finding]) -> dict[str, list[str]]:
 
 
 def _value(value: float | str | None) -> str:
-    return value if isinstance(value, str) else figure(value)
+    return value if isinstance(value, str) else figure(value, 5)
 
 
 def _percent(value: float | None) -> str:
-    return "" if value is None else f"{value:+.1f} %"
+    return "" if value is None else f"{round(value, 1) + 0.0:+.1f} %"
