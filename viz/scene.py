@@ -1,7 +1,7 @@
 """A stance as a Meshcat scene, written through Meshcat's own Visualizer: every page shares it.
 
 Paths: `rover` with a node or two a joint (see tree), `rover/.../visuals/N` for looks, `ground`, `loads`,
-`support/area`, `support/edges`, `com`.
+`tracks`, `springs`, `support/area`, `support/edges`, `com`.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import numpy as np
 
 from rover_pin.errors import InputError
 from rover_pin.viz.arrows import load_arrows
+from rover_pin.viz.inside import struts, tracks
 from rover_pin.viz.meshes import bare_shapes, ring_surface, surface_object, visual_object
 from rover_pin.viz.support import com_marker, support_area, support_edges
 from rover_pin.viz.terrain_mesh import ground_surface
@@ -101,6 +102,11 @@ def draw(visualizer: Any, stance: Stance, *, limiting: str | None = None) -> Dra
     pose_robot(visualizer, stance)
     ground, step = ground_surface(stance.terrain, float(stance.position[0]), float(stance.position[1]), span)
     visualizer["ground"].set_object(surface_object(ground))
+
+    for path, bars in (("tracks", tracks), ("springs", struts)):
+        surface = bars(stance.rover, stance.configuration, span)
+        if len(surface.faces):
+            visualizer[path].set_object(surface_object(surface))
 
     def put(path: str, surface: Surface, opacity: float) -> None:
         if len(surface.faces):

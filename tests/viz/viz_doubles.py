@@ -131,6 +131,8 @@ def rover():
         shapes=tuple(wheels),
         wheels=tuple(wheels),
         feet=(),
+        springs=(),
+        tracks=(),
         wheel_span=1.6,
         mass=float(sum(i.mass for i in model.inertias)),
         notes=(),
