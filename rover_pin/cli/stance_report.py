@@ -43,9 +43,7 @@ def stance_object(stance: Stance, margins: Mapping[str, Margin]) -> dict[str, An
             for name in contacts
         },
         "tensions_n": stance.tensions,
-        "tight_tensions_n": stance.tight,
-        "tractions_n": stance.tractions,
-        "traction_ratio": stance.traction_ratio,
+        **_pulling(stance),
         "springs_n": stance.springs,
         "stability": {
             name: {
@@ -61,6 +59,17 @@ def stance_object(stance: Stance, margins: Mapping[str, Margin]) -> dict[str, An
         "redundant": stance.redundant,
         "undetermined": stance.undetermined,
         "notes": stance.rover.notes,
+    }
+
+
+def _pulling(stance: Stance) -> dict[str, object]:
+    """What is known of tractions, where a resistance asks for them."""
+    if not stance.resistance:
+        return {}
+    return {
+        "tight_tensions_n": stance.tight,
+        "tractions_n": stance.tractions,
+        "traction_ratio": stance.traction_ratio,
     }
 
 

@@ -51,7 +51,7 @@ def test_memory_does_not_grow_with_the_number_of_cases(tmp_path: Path) -> None:
     assert sum(result["told"][0].values()) == 1_000_000
     assert Path(out).stat().st_size > 3e8
     assert result["after"] - result["before"] < 150  # MB; the file alone is over 300
-    assert result["after"] < 1500  # MB; what the kernels' compilation takes, where it is cold, is in it
+    assert result["after"] < 2200  # MB; what the kernels' compilation takes, where it is cold, is in it
 
 
 @pytest.mark.parametrize("chunk", [None, 7_001, 65_536, 150_000])

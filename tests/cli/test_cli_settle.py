@@ -40,6 +40,11 @@ def test_settle_prints_the_object_of_the_contract(run: Any) -> None:
         *("robot", "status", "base", "joints", "wheels", "tensions_n", "springs_n", "stability", "residuals"),
         *("redundant", "undetermined", "reason", "notes"),
     }
+    _, out, _ = run("settle", "rocker_bogie", "--resistance", "30", "--json")
+    pulled = json.loads(out)
+    assert set(pulled) == {*told, "tight_tensions_n", "tractions_n", "traction_ratio"}
+    assert pulled["traction_ratio"] == pytest.approx(30 / (132 * 9.81), rel=1e-9)
+    assert sum(pulled["tractions_n"].values()) == pytest.approx(30, rel=1e-9)
     assert (told["robot"], told["status"], told["reason"]) == ("rocker_bogie", "settled", "")
     assert set(told["base"]) == {"position_m", "rpy_rad"}
     assert set(told["wheels"]) == {"fl", "ml", "bl", "fr", "mr", "br"}

@@ -41,7 +41,11 @@ def test_every_bundled_robot_loads_quietly(name):
     rover = rp.load(name)
     assert rover.name == name
     assert rover.mass > 0
-    assert rover.notes == ()
+    massless = [
+        note for note in rover.notes if "have no inertial: no mass" in note
+    ]  # arms of the paper's model
+    assert list(rover.notes) == massless
+    assert not massless or name in ("polibot", "polibot_half", "x_suspension")
 
 
 def test_a_folder_stands_for_its_description(tmp_path):
