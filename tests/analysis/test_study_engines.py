@@ -121,7 +121,7 @@ def test_workers_have_one_thread_and_this_process_keeps_its_own(monkeypatch: pyt
 
 
 def test_a_killed_worker_process_ends_the_run_and_keeps_what_is_done(tmp_path: Path) -> None:
-    study = Study("rocker_bogie", ROUGH, cases={"n": 60}, measures=["tip"])
+    study = Study("rocker_bogie", ROUGH, cases={"n": 800}, measures=["tip"])
     out, told, others = tmp_path / "out.nc", [], set(multiprocessing.active_children())
 
     def kill_one(finished: int, count: int) -> None:
