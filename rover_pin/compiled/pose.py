@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_pin.compiled.internal import COLUMN
 from rover_pin.compiled.machine import Machine
 from rover_pin.compiled.posed import (
     BASE,
@@ -31,9 +32,6 @@ if TYPE_CHECKING:
     from rover_pin.statics.problem import Problem
 
 YAW = 3
-
-COLUMN = 2
-"""Column of the base's last coordinate; body b has column COLUMN + b."""
 
 LEAST_TIER = 12
 

@@ -94,12 +94,6 @@ class Kinematics:
         origin: Array = self.data.oMi[joint].translation
         return origin
 
-    def frames(self, joints: tuple[int, ...]) -> tuple[Array, Array]:
-        """Rotations (k, 3, 3) and origins (k, 3) m of several joints, world."""
-        rotations, origins = self.placements
-        chosen = list(joints)
-        return rotations[chosen], origins[chosen]
-
     @cached_property
     def placements(self) -> tuple[Array, Array]:
         """Rotations (joints, 3, 3) and origins (joints, 3) m of all joints' frames, world."""
@@ -131,10 +125,6 @@ class Kinematics:
                 found = pin.getJointJacobian(self.model, self.data, joint, pin.LOCAL_WORLD_ALIGNED)
             self._jacobians[joint] = found
         return found
-
-    def angular_jacobian(self, joint: int) -> Array:
-        """(3, nv) angular velocity of the joint's body, along world axes."""
-        return self.joint_jacobian(joint)[3:]
 
     def point_jacobian(self, joint: int, world: Array) -> Array:
         """(3, nv) velocity of the point of the joint's body that is now at `world`."""

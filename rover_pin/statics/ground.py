@@ -138,12 +138,7 @@ def _come_to_rest(
 def _caught(problem: Problem, rest: Rest, terrain: Terrain) -> Footing | None:
     """Newton from a sprung rover's fall that need not have ended, on the supports that turn out to carry."""
     loops = independent_rows(rest.state.closing)
-    contacts, shapes = len(rest.state.owners), len(problem.rover.shapes)
-    rows = np.flatnonzero(rest.multipliers > 0.0)
-    plain = np.where(
-        rows < contacts, rest.state.owners[np.minimum(rows, contacts - 1)], rows - contacts + shapes
-    )
-    active = np.unique(plain).astype(np.int64)
+    active = np.unique(plain_rows(problem, rest.state)[rest.multipliers > 0.0])
     landing = land(problem, rest.state.z, terrain, active, loops, window=THOROUGH, reach=0.2)
     if landing is not None and not stands(problem, landing, landing.sign):
         found = adapted(problem, rest.state.z, terrain, active, loops, landing)
@@ -188,12 +183,16 @@ def polish(
 
 def carrying(problem: Problem, rest: Rest) -> Integers:
     """Supports that can carry alone at a rest, as rows of a state with one contact a shape."""
-    state = rest.state
-    contacts, shapes = len(state.owners), len(problem.rover.shapes)
-    plain = np.arange(len(state.slack)) - contacts + shapes
-    plain[:contacts] = state.owners
     near = np.flatnonzero(rest.multipliers > -NOT_NEGATIVE * problem.weight)
-    return supports(problem, state, near, plain)
+    return supports(problem, rest.state, near, plain_rows(problem, rest.state))
+
+
+def plain_rows(problem: Problem, state: State) -> Integers:
+    """(m,) each row's number in a state with one contact a shape."""
+    contacts, shapes = len(state.owners), len(problem.rover.shapes)
+    plain: Integers = np.arange(len(state.slack)) - contacts + shapes
+    plain[:contacts] = state.owners
+    return plain
 
 
 def supports(problem: Problem, state: State, near: Integers, plain: Integers) -> Integers:

@@ -16,7 +16,7 @@ import pinocchio as pin
 from rover_pin.contact.place import SEGMENT
 from rover_pin.mechanism import Bilateral, Kinematics
 from rover_pin.numerics import Array, cross
-from rover_pin.statics.resistance import Resistance, pulled_at, tight_spans
+from rover_pin.statics.resistance import Resistance
 from rover_pin.statics.stance import Contact
 from rover_pin.terrain.surface import LINEAR
 
@@ -72,39 +72,12 @@ def equilibrium(
 
 
 def _pulling(rover: Rover, at: Kinematics, contacts: Sequence[Contact], resistance: Resistance) -> Array:
-    """(nv,) of the resistance, the tractions and what they add to the tracks' tensions, on q itself."""
-    model: Any = rover.model
-    total: Array = -resistance.force * (resistance.heading @ pin.jacobianCenterOfMass(model, at.data, at.q))
-    tracked = {circle.name for track in rover.tracks for circle in track.circles}
+    """(nv,) of the resistance, the tractions and what they add to the tracks' tensions."""
     place = {shape.name: i for i, shape in enumerate(rover.shapes)}
-    pull = resistance.sense * resistance.ratio
-    for contact in contacts:
-        owner = np.array([place[contact.wheel]])
-        tangent = resistance.tangents(at, owner, contact.normal[None])[0]
-        force = pull * contact.load * tangent
-        spot = contact.point
-        if contact.wheel in tracked:  # a roller's centre gets what the cable leaves
-            spot = at.point(contact.joint, rover.shapes[place[contact.wheel]].center)
-        total = total + force @ at.point_jacobian(contact.joint, spot)
-    for track in rover.tracks:
-        wrap = track.wrap(at)
-        driven = resistance.driven(track)
-        for contact in contacts:
-            names = [circle.name for circle in track.circles]
-            if contact.wheel not in names:
-                continue
-            tangent = resistance.tangents(at, np.array([place[contact.wheel]]), contact.normal[None])[0]
-            if not tangent.any():
-                continue
-            spans = tight_spans(
-                wrap, names.index(contact.wheel), driven, resistance.sense * tangent, contact.normal
-            )
-            for span in spans:
-                for end, sign in ((span.leaves, 1.0), (span.meets, -1.0)):
-                    spot = pulled_at(wrap, end, driven, span)
-                    jacobian = at.point_jacobian(track.circles[end].joint, spot)
-                    pull_here = sign * resistance.ratio * contact.load
-                    total = total + pull_here * (span.direction @ jacobian)
+    owners = np.array([place[contact.wheel] for contact in contacts], dtype=np.int64)
+    touching = np.array([[contact.gap, *contact.point, *contact.normal] for contact in contacts])
+    loads = np.array([contact.load for contact in contacts])
+    total: Array = resistance.drag(at) + resistance.ratio * (loads @ resistance.rows(at, owners, touching))
     return total
 
 

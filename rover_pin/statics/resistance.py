@@ -168,10 +168,6 @@ class Resistance:
             found[track.name] = driven[0]
         return found
 
-    def driven(self, track: Track) -> int:
-        """The driven circle of a track."""
-        return self._driven[track.name]
-
     def check(self) -> None:
         """Nothing where every track has its driven wheel.
 
