@@ -1,0 +1,1 @@
+"""What watches and steers motion: motion constraints, projection, modes, supervisor; named by the idea."""

@@ -1,0 +1,1 @@
+"""Motion of rovers that roll: rows of wheels, tasks, limits, and constrained inverse kinematics."""

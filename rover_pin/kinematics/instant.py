@@ -1,0 +1,263 @@
+"""A rover at one configuration over a terrain: contacts, and velocities of points of its bodies as rows.
+
+Every row is a unit wrench on a body: a direction at a point, or a turn. A row times v = dq/dt is the velocity
+along it; columns are named by `Rover.dof_names`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
+
+from rover_pin.contact.pack import pack
+from rover_pin.contact.search import find_all
+from rover_pin.errors import InputError
+from rover_pin.mechanism import Kinematics
+from rover_pin.mechanism.frames import find_frame
+from rover_pin.numerics import Array, cross, frozen
+
+if TYPE_CHECKING:
+    from rover_pin.rover import Rover
+    from rover_pin.terrain import Terrain
+
+Integers = NDArray[np.int64]
+
+ONE_EACH = 1e-10
+"""m: a window this small asks the contact search for one contact a shape."""
+
+
+class Bodies:
+    """What does not change from one instant to the next: which columns move a body, where wheels sit.
+
+    Args:
+        rover: the rover; it must touch the ground somewhere.
+        terrain: what it drives on.
+
+    Raises:
+        InputError: the rover has neither wheels nor contacts.
+    """
+
+    def __init__(self, rover: Rover, terrain: Terrain) -> None:
+        if not rover.shapes:
+            raise InputError(
+                "nothing of this robot touches the ground: it has no wheels and no contacts",
+                file=rover.sidecar_path or rover.source,
+                element="wheels",
+                cure="declare `wheels` or `contacts` in the sidecar",
+            )
+        self.rover = rover
+        self.terrain = terrain
+        self.names = tuple(shape.name for shape in rover.shapes)
+        self.model: Any = rover.model
+        self.data: Any = rover.model.createData()
+        self.packed = pack(rover.shapes)
+        self.latest: Instant | None = None
+        self._found = np.empty((len(self.names), 8, 7))
+        self._counts = np.zeros(len(self.names), dtype=np.int64)
+
+    @cached_property
+    def chains(self) -> Array:
+        """(joints, nv) 1 where a column moves the body of a joint, else 0; by Pinocchio's joint ids."""
+        model = self.model
+        chains = np.zeros((model.njoints, model.nv))
+        for joint in range(1, model.njoints):
+            chains[joint] = chains[model.parents[joint]]
+            first = model.idx_vs[joint]
+            chains[joint, first : first + model.nvs[joint]] = 1.0
+        return chains
+
+    @cached_property
+    def rolling_joints(self) -> Integers:
+        """(s,) joint whose body touches the ground: a wheel's own turning joint where it has one."""
+        turning = [getattr(shape, "drive", None) for shape in self.rover.shapes]
+        return np.array(
+            [
+                shape.joint if drive is None else self.model.getJointId(drive)
+                for shape, drive in zip(self.rover.shapes, turning, strict=True)
+            ],
+            dtype=np.int64,
+        )
+
+    @cached_property
+    def is_wheel(self) -> NDArray[np.bool_]:
+        """(s,) whether a shape is a wheel; else it is a foot."""
+        return np.arange(len(self.names)) < len(self.rover.wheels)
+
+    def at(self, q: Array) -> Instant:
+        """The rover at q (nv,), copied.
+
+        Raises:
+            InputError: a wrong shape, or an entry that is not finite, named.
+        """
+        values = np.array(q, dtype=np.float64)
+        if values.shape != (self.model.nv,):
+            raise InputError(
+                "a configuration has one entry a degree of freedom",
+                element="q",
+                value=values.shape,
+                cure=f"give shape ({self.model.nv},): {', '.join(self.rover.dof_names)}",
+            )
+        if not np.isfinite(values).all():
+            bad = int(np.flatnonzero(~np.isfinite(values))[0])
+            raise InputError(
+                "is no finite number", element=self.rover.dof_names[bad], value=float(values[bad])
+            )
+        return Instant(self, values)
+
+    def touching(self, centers: Array, axes: Array) -> Array:
+        """(s, 7) gap [m], point [m], unit normal out of the ground of each shape's nearest place, world."""
+        ground, shapes = self.terrain, self.packed
+        find_all(
+            ground.kind, ground.table, ground.params, ground.spacing, shapes.forms, centers, axes,
+            shapes.rings, shapes.treads, ONE_EACH, self._found, self._counts,
+        )  # fmt: skip
+        return self._found[:, 0].copy()
+
+
+class Instant:
+    """The rover at q; made by `Bodies.at`.
+
+    Attributes:
+        bodies: what it was made by.
+        q: (nv,) configuration, read-only.
+        jacobian: (6, nv) of every column: velocity at the world's origin, then axis, world axes.
+    """
+
+    def __init__(self, bodies: Bodies, q: Array) -> None:
+        q.setflags(write=False)
+        self.bodies = bodies
+        self.q = q
+        pin.computeJointJacobians(bodies.model, bodies.data, q)
+        bodies.latest = self
+        self.jacobian: Array = bodies.data.J.copy()
+
+    @property
+    def rover(self) -> Rover:
+        """The rover."""
+        return self.bodies.rover
+
+    @property
+    def placed(self) -> Any:
+        """Pinocchio's placements of all joints; worked out again where another instant came between."""
+        if self.bodies.latest is not self:
+            pin.computeJointJacobians(self.bodies.model, self.bodies.data, self.q)
+            self.bodies.latest = self
+        return self.bodies.data.oMi
+
+    @cached_property
+    def mechanism(self) -> Kinematics:
+        """What couplings, loops and tracks ask for."""
+        self.bodies.latest = self
+        return Kinematics(self.bodies.model, self.bodies.data, self.q)
+
+    @cached_property
+    def _shapes(self) -> tuple[Array, Array]:
+        packed, placed = self.bodies.packed, self.placed
+        centers, axes = np.empty_like(packed.centers), np.empty_like(packed.axes)
+        for i, joint in enumerate(packed.joints.tolist()):
+            placement = placed[joint]
+            rotation = placement.rotation
+            centers[i] = rotation @ packed.centers[i] + placement.translation
+            axes[i] = rotation @ packed.axes[i]
+        return centers, axes
+
+    @property
+    def centers(self) -> Array:
+        """(s, 3) m, world: centres of wheels, then feet."""
+        return self._shapes[0]
+
+    @property
+    def axes(self) -> Array:
+        """(s, 3) unit, world: axes of wheels; of feet whatever they have."""
+        return self._shapes[1]
+
+    @cached_property
+    def contacts(self) -> Array:
+        """(s, 7) gap [m], point on the ground [m], unit normal, of each shape's nearest place, world."""
+        return self.bodies.touching(self.centers, self.axes)
+
+    @cached_property
+    def rolling(self) -> Array:
+        """(s, 3) unit, world: where each wheel rolls to, in the ground's tangent plane: axis x normal."""
+        found = cross(self.axes, self.contacts[:, 4:7])
+        found /= np.maximum(np.linalg.norm(found, axis=1), 1e-12)[:, None]
+        return found
+
+    @cached_property
+    def sideways(self) -> Array:
+        """(s, 3) unit, world: across the rolling direction, to the left of it, in the tangent plane."""
+        return cross(self.contacts[:, 4:7], self.rolling)
+
+    def rows(self, joints: Integers, points: Array, directions: Array) -> Array:
+        """(k, nv) velocities of points of bodies along directions.
+
+        Args:
+            joints: (k,) Pinocchio's ids of the joints whose bodies the points belong to.
+            points: (k, 3) m, world.
+            directions: (k, 3), world.
+        """
+        rows = directions @ self.jacobian[:3] + cross(points, directions) @ self.jacobian[3:]
+        rows *= self.bodies.chains[joints]
+        return rows
+
+    def turns(self, joints: Integers, directions: Array) -> Array:
+        """(k, nv) angular velocities [rad/s] of bodies about directions (k, 3), world."""
+        rows: Array = directions @ self.jacobian[3:]
+        rows *= self.bodies.chains[joints]
+        return rows
+
+    def frame(self, name: str) -> tuple[int, Array, Array]:
+        """Joint, origin (3,) m and rotation (3, 3) in the world of a link's or joint's frame.
+
+        Raises:
+            SidecarError: no link or joint of that name; names the nearest.
+        """
+        found = find_frame(self.bodies.model, name, element="frame")
+        joint = int(found.parentJoint)
+        placement = self.placed[joint] * found.placement
+        return joint, np.array(placement.translation), np.array(placement.rotation)
+
+    @cached_property
+    def com(self) -> Array:
+        """(3,) m, world: centre of mass."""
+        return frozen(pin.centerOfMass(self.bodies.model, self.bodies.model.createData(), self.q))
+
+    @cached_property
+    def com_rows(self) -> Array:
+        """(3, nv) velocity of the centre of mass."""
+        data = self.bodies.model.createData()
+        return frozen(pin.jacobianCenterOfMass(self.bodies.model, data, self.q))
+
+    @property
+    def heading(self) -> float:
+        """Yaw of the root link [rad]."""
+        return float(self.q[3])
+
+    def index(self, wheels: Sequence[str]) -> Integers:
+        """(k,) where wheels or feet stand in the order of shapes.
+
+        Raises:
+            InputError: an unknown one, with the nearest names.
+        """
+        return index_of(self.bodies.names, wheels)
+
+
+def index_of(names: Sequence[str], wanted: Sequence[str]) -> Integers:
+    """(k,) places of `wanted` in `names`.
+
+    Raises:
+        InputError: an unknown one, with the nearest names.
+    """
+    from rover_pin.errors import nearest
+
+    for name in wanted:
+        if name not in names:
+            raise InputError(
+                "no wheel or foot of that name", element=str(name), cure=nearest(str(name), names)
+            )
+    return np.array([names.index(name) for name in wanted], dtype=np.int64)

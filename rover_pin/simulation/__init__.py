@@ -1,0 +1,1 @@
+"""Motion in time: what a controller and the ground make of a rover, step by step."""
