@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from rover_pin.contact.pack import pack
 from rover_pin.contact.search import find_all
 from rover_pin.errors import InputError
+from rover_pin.kinematics.kernels import velocity_rows
 from rover_pin.mechanism import Kinematics
 from rover_pin.mechanism.frames import find_frame
 from rover_pin.numerics import Array, cross, frozen
@@ -158,13 +159,10 @@ class Instant:
     @cached_property
     def _shapes(self) -> tuple[Array, Array]:
         packed, placed = self.bodies.packed, self.placed
-        centers, axes = np.empty_like(packed.centers), np.empty_like(packed.axes)
-        for i, joint in enumerate(packed.joints.tolist()):
-            placement = placed[joint]
-            rotation = placement.rotation
-            centers[i] = rotation @ packed.centers[i] + placement.translation
-            axes[i] = rotation @ packed.axes[i]
-        return centers, axes
+        frames = np.array([placed[joint].homogeneous for joint in packed.joints.tolist()])
+        turned = frames[:, :3, :3]
+        centers = np.einsum("sij,sj->si", turned, packed.centers) + frames[:, :3, 3]
+        return centers, np.einsum("sij,sj->si", turned, packed.axes)
 
     @property
     def centers(self) -> Array:
@@ -201,8 +199,8 @@ class Instant:
             points: (k, 3) m, world.
             directions: (k, 3), world.
         """
-        rows = directions @ self.jacobian[:3] + cross(points, directions) @ self.jacobian[3:]
-        rows *= self.bodies.chains[joints]
+        rows = np.empty((len(joints), self.jacobian.shape[1]))
+        velocity_rows(self.jacobian, self.bodies.chains, joints, points, directions, rows)
         return rows
 
     def turns(self, joints: Integers, directions: Array) -> Array:
@@ -225,13 +223,14 @@ class Instant:
     @cached_property
     def com(self) -> Array:
         """(3,) m, world: centre of mass."""
-        return frozen(pin.centerOfMass(self.bodies.model, self.bodies.model.createData(), self.q))
+        self.bodies.latest = self
+        return frozen(pin.centerOfMass(self.bodies.model, self.bodies.data, self.q))
 
     @cached_property
     def com_rows(self) -> Array:
         """(3, nv) velocity of the centre of mass."""
-        data = self.bodies.model.createData()
-        return frozen(pin.jacobianCenterOfMass(self.bodies.model, data, self.q))
+        self.bodies.latest = self
+        return frozen(pin.jacobianCenterOfMass(self.bodies.model, self.bodies.data, self.q))
 
     @property
     def heading(self) -> float:

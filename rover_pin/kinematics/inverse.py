@@ -1,0 +1,132 @@
+"""Constrained inverse kinematics: one quadratic program a step."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from rover_pin.errors import InputError
+from rover_pin.kinematics.conflict import Side, conflict
+from rover_pin.kinematics.instant import Bodies, Instant
+from rover_pin.kinematics.limits import (
+    ContactKept,
+    CouplingsKept,
+    JointLimits,
+    LoopsClosed,
+    SpeedLimits,
+)
+from rover_pin.kinematics.program import Program, assemble, check
+from rover_pin.kinematics.rows import Aim, Box, Limit, Task, number
+from rover_pin.kinematics.solution import Outcome, Solution
+from rover_pin.kinematics.solver import solve, solve_patiently
+from rover_pin.numerics import Array
+
+if TYPE_CHECKING:
+    from rover_pin.rover import Rover
+    from rover_pin.statics.stance import Stance
+    from rover_pin.terrain import Terrain
+
+
+def usual_limits() -> tuple[Limit | Box, ...]:
+    """What holds for every rover that rolls: couplings, loops, contacts, joints' places and speeds."""
+    return CouplingsKept(), LoopsClosed(), ContactKept(), JointLimits(), SpeedLimits()
+
+
+class InverseKinematics:
+    """Rates of all joints and of the base that do what tasks want as far as limits allow.
+
+    Least squares of the tasks subject to the limits' rows, in v = dq/dt. Among motions that serve the tasks
+    alike the least is taken, weighed by `damping`.
+
+    Args:
+        rover: what moves.
+        terrain: on what.
+        damping: weight of a (m/s) squared of every coordinate; of an angle it counts with the wheels' size.
+
+    Raises:
+        InputError: a rover that touches nothing, or a damping that is not above 0.
+    """
+
+    def __init__(self, rover: Rover, terrain: Terrain, *, damping: float = 1e-5) -> None:
+        if not number("damping", damping) > 0.0:
+            raise InputError("must be above 0", element="damping", value=damping)
+        self.rover = rover
+        self.bodies = Bodies(rover, terrain)
+        size = max((shape.ring + shape.tread for shape in rover.shapes), default=0.0) or 0.1
+        self.damping: Array = damping * np.where(rover.turning, size**2, 1.0)
+
+    def at(self, where: Stance | Instant | Array) -> Instant:
+        """The instant of a stance, of a configuration (nv,), or the one given.
+
+        Raises:
+            InputError: a configuration of another shape or with an entry that is not finite.
+        """
+        if isinstance(where, Instant):
+            return where
+        return self.bodies.at(where if isinstance(where, np.ndarray) else where.configuration)
+
+    def solve(
+        self,
+        where: Stance | Instant | Array,
+        tasks: Sequence[Task],
+        limits: Sequence[Limit | Box] | None = None,
+        *,
+        dt: float = 0.01,
+    ) -> Solution:
+        """The rates of one step.
+
+        Args:
+            where: a stance, an instant, or q (nv,).
+            tasks: what is wanted.
+            limits: what is obeyed; silent: `usual_limits()`.
+            dt: s.
+
+        Raises:
+            InputError: dt not above 0, an unknown name in a task or limit, an entry that is not finite.
+        """
+        if not number("dt", dt) > 0.0:
+            raise InputError("must be above 0 s", element="dt", value=dt)
+        at = self.at(where)
+        obeyed = usual_limits() if limits is None else limits
+        aims = [task.aim(at, dt) for task in tasks]
+        boxes = [cast("Box", limit) for limit in obeyed if hasattr(limit, "box")]
+        blocks = [cast("Limit", limit).rows(at, dt) for limit in obeyed if hasattr(limit, "rows")]
+        program = assemble(at, aims, [block for block in blocks if block.names], boxes, dt, self.damping)
+        check(program)
+        answer = solve(program)
+        fighting: tuple[Side, ...] = ()
+        if not answer.solved:
+            fighting = conflict(program, self._bound_names(at, program, boxes, dt))
+            answer = answer if fighting else solve_patiently(program)
+        residuals = {"rows": answer.primal, "optimality": answer.dual}
+        if not answer.solved:
+            outcome = Outcome.INFEASIBLE if fighting else Outcome.NO_CONVERGENCE
+            still = np.zeros(program.nv)
+            return Solution(self.rover, outcome, still, {}, {}, residuals, fighting, program)
+        velocity = answer.x[: program.nv]
+        velocity.setflags(write=False)
+        slack = {
+            program.row_names[row]: float(value)
+            for row, value in zip(program.bending, answer.x[program.nv :], strict=True)
+        }
+        missed = {task.name: _miss(aim, velocity) for task, aim in zip(tasks, aims, strict=True)}
+        return Solution(self.rover, Outcome.SOLVED, velocity, slack, missed, residuals, (), program)
+
+    def _bound_names(
+        self, at: Instant, program: Program, boxes: Sequence[Box], dt: float
+    ) -> dict[tuple[int, bool], str]:
+        names = {}
+        for each in boxes:
+            low, high = each.box(at, dt)
+            for i, dof in enumerate(self.rover.dof_names):
+                if low[i] == program.floor[i] and np.isfinite(low[i]):
+                    names[i, False] = each.bound_name(dof, False)
+                if high[i] == program.ceiling[i] and np.isfinite(high[i]):
+                    names[i, True] = each.bound_name(dof, True)
+        return names
+
+
+def _miss(aim: Aim, velocity: Array) -> float:
+    return float(np.linalg.norm(aim.matrix @ velocity - aim.target))

@@ -1,0 +1,138 @@
+"""The compiled inner work of a step: rows of points, the cost, the check of an answer.
+
+They call no compiled function of another file: numba's cache on disk compares a function with its own file.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rover_pin.numerics import Array, formula
+
+Integers = NDArray[np.int64]
+
+
+@formula
+def velocity_rows(
+    jacobian: Array, chains: Array, joints: Integers, points: Array, directions: Array, out: Array
+) -> None:
+    """Velocities of points of bodies along directions.
+
+    Args:
+        jacobian: (6, nv) velocity at the world's origin and axis of every column, world axes.
+        chains: (joints, nv) 1 where a column moves a body.
+        joints: (k,) bodies.
+        points: (k, 3) m, world.
+        directions: (k, 3), world.
+        out: (k, nv) receives the rows.
+    """
+    for i in range(joints.shape[0]):
+        px, py, pz = points[i, 0], points[i, 1], points[i, 2]
+        dx, dy, dz = directions[i, 0], directions[i, 1], directions[i, 2]
+        mx, my, mz = py * dz - pz * dy, pz * dx - px * dz, px * dy - py * dx
+        for c in range(jacobian.shape[1]):
+            if chains[joints[i], c] != 0.0:
+                out[i, c] = (
+                    dx * jacobian[0, c] + dy * jacobian[1, c] + dz * jacobian[2, c]
+                    + mx * jacobian[3, c] + my * jacobian[4, c] + mz * jacobian[5, c]
+                )  # fmt: skip
+            else:
+                out[i, c] = 0.0
+
+
+@formula
+def add_cost(rows: Array, targets: Array, weights: Array, hessian: Array, gradient: Array) -> None:
+    """Add weight (row v - target)^2 / 2 to hessian and gradient.
+
+    Args:
+        rows: (k, nv).
+        targets: (k,).
+        weights: (k,).
+        hessian: (n, n), n >= nv.
+        gradient: (n,).
+    """
+    for i in range(rows.shape[0]):
+        for a in range(rows.shape[1]):
+            along = weights[i] * rows[i, a]
+            if along != 0.0:
+                gradient[a] -= along * targets[i]
+                for b in range(rows.shape[1]):
+                    hessian[a, b] += along * rows[i, b]
+
+
+@formula
+def outside(matrix: Array, low: Array, high: Array, x: Array) -> float:
+    """What low <= matrix x <= high is missed by; infinite where x is not finite."""
+    worst = 0.0
+    for i in range(matrix.shape[0]):
+        along = 0.0
+        for c in range(x.shape[0]):
+            along += matrix[i, c] * x[c]
+        if not math.isfinite(along):
+            return math.inf
+        worst = max(worst, low[i] - along, along - high[i])
+    return worst
+
+
+@formula
+def beyond(x: Array, floor: Array, ceiling: Array) -> float:
+    """What floor <= x <= ceiling is missed by; infinite where x is not finite."""
+    worst = 0.0
+    for i in range(x.shape[0]):
+        if not math.isfinite(x[i]):
+            return math.inf
+        worst = max(worst, floor[i] - x[i], x[i] - ceiling[i])
+    return worst
+
+
+@formula
+def idle(z: float, along: float, low: float, high: float) -> float:
+    """Multiplier times distance to the side that it speaks for: 0 where it is that side that binds."""
+    if z == 0.0:
+        return 0.0
+    distance = high - along if z > 0.0 else along - low
+    return abs(z) * min(abs(distance), 1.0)
+
+
+@formula
+def unbalanced(
+    hessian: Array, gradient: Array, equations: Array, matrix: Array, low: Array, high: Array, floor: Array,
+    ceiling: Array, x: Array, y: Array, z: Array,
+) -> float:  # fmt: skip
+    """Largest entry of the Lagrangian's gradient and of multiplier times slack, over the largest term.
+
+    Args:
+        hessian: (n, n).
+        gradient: (n,).
+        equations: (e, n).
+        matrix: (m, n).
+        low: (m,).
+        high: (m,).
+        floor: (n,).
+        ceiling: (n,).
+        x: (n,).
+        y: (e,) multipliers of the equations.
+        z: (m + n,) of rows, then bounds; positive pushes from the high side.
+    """
+    n, m = x.shape[0], matrix.shape[0]
+    size, left = 1.0, 0.0
+    for c in range(n):
+        push, pull = 0.0, z[m + c]
+        for k in range(n):
+            push += hessian[c, k] * x[k]
+        for i in range(equations.shape[0]):
+            pull += equations[i, c] * y[i]
+        for i in range(m):
+            pull += matrix[i, c] * z[i]
+        size = max(size, abs(push), abs(pull))
+        left = max(left, abs(push + gradient[c] + pull))
+        left = max(left, idle(z[m + c], x[c], floor[c], ceiling[c]))
+    for i in range(m):
+        along = 0.0
+        for c in range(n):
+            along += matrix[i, c] * x[c]
+        left = max(left, idle(z[i], along, low[i], high[i]))
+    return left / size if math.isfinite(left) else math.inf

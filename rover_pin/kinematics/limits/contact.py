@@ -1,0 +1,71 @@
+"""Wheels and feet stay on the ground and do not slide on it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from rover_pin.errors import InputError
+from rover_pin.kinematics.instant import Instant, Integers
+from rover_pin.kinematics.rolling import DIRECTIONS, contact_rows
+from rover_pin.kinematics.rows import Rows, gain_between
+
+
+@dataclass(frozen=True)
+class ContactKept:
+    """Rows of what stands: along the normal, along the rolling direction, sideways.
+
+    Attributes:
+        lifted: wheels and feet that do not stand.
+        directions: which of `normal`, `roll`, `slip` these rows are. Where sliding may bend it has a
+            ContactKept of its own: `ContactKept(directions=("normal", "roll"))` and
+            `ContactKept(directions=("slip",), bend=100.0)` for a rover that must skid to turn.
+        gain: share of a gap that is closed in a step.
+        bend: weight of a (m/s) squared, see `Rows`.
+
+    Raises:
+        InputError: an unknown direction, or a gain outside (0, 1].
+    """
+
+    lifted: tuple[str, ...] = ()
+    directions: tuple[str, ...] = DIRECTIONS
+    gain: float = 0.5
+    bend: float = math.inf
+    _kept: dict[tuple[str, ...], tuple[str, ...]] = field(default_factory=dict, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        gain_between("contact: gain", self.gain)
+        for word in self.directions:
+            if word not in DIRECTIONS:
+                raise InputError("is no direction of a contact", element="contact", value=word,
+                                 cure=f"known: {', '.join(DIRECTIONS)}")  # fmt: skip
+        object.__setattr__(self, "lifted", tuple(self.lifted))
+        object.__setattr__(self, "directions", tuple(self.directions))
+
+    def rows(self, at: Instant, dt: float) -> Rows:
+        """Rows of every wheel and foot that stands, direction by direction.
+
+        Raises:
+            InputError: a lifted wheel that the rover does not have.
+        """
+        away = set(at.index(self.lifted).tolist()) if self.lifted else ()
+        which = np.array([i for i in range(len(at.bodies.names)) if i not in away], dtype=np.int64)
+        matrix = contact_rows(at, which, self.directions)
+        rate = np.zeros(len(matrix))
+        if "normal" in self.directions:
+            first = self.directions.index("normal") * len(which)
+            rate[first : first + len(which)] = -self.gain / dt * at.contacts[which, 0]
+        return Rows(self._names(at, which), matrix, rate, rate, self.bend)
+
+    def _names(self, at: Instant, which: Integers) -> tuple[str, ...]:
+        standing = tuple(at.bodies.names[i] for i in which)
+        if standing not in self._kept:
+            self._kept[standing] = tuple(
+                f"{_WORDS[word]} of {name}" for word in self.directions for name in standing
+            )
+        return self._kept[standing]
+
+
+_WORDS = {"normal": "contact", "roll": "rolling", "slip": "side slip"}

@@ -1,0 +1,36 @@
+"""Couplings hold: differentials, gears, mimics."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rover_pin.kinematics.instant import Instant
+from rover_pin.kinematics.rows import Rows, gain_between
+
+
+@dataclass(frozen=True)
+class CouplingsKept:
+    """Every coupling's row; `gain` of what it is off by is made good in a step.
+
+    Attributes:
+        gain: in (0, 1].
+
+    Raises:
+        InputError: a gain outside.
+    """
+
+    gain: float = 0.5
+
+    def __post_init__(self) -> None:
+        gain_between("couplings: gain", self.gain)
+
+    def rows(self, at: Instant, dt: float) -> Rows:
+        """A row a coupling."""
+        couplings = at.rover.couplings
+        nv = at.rover.model.nv
+        matrix = np.array([each.row for each in couplings]).reshape(-1, nv)
+        off = matrix @ at.q - np.array([each.offset for each in couplings])
+        rate = -self.gain / dt * off
+        return Rows(tuple(f"coupling {each.name}" for each in couplings), matrix, rate, rate)
