@@ -1,0 +1,130 @@
+"""Raising and lowering the chassis: both rockers together, some wheels braked, the others following."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rover_pin.control.actions.action import Action, Command, Start, drives_of, still
+from rover_pin.control.layout import Layout
+from rover_pin.errors import InputError
+from rover_pin.kinematics.instant import Instant
+from rover_pin.kinematics.limits import Held
+from rover_pin.kinematics.rolling import ground_rows
+from rover_pin.kinematics.rows import Limit, Rows, Task, number
+from rover_pin.kinematics.tasks import BaseTwist, Clearance, Rates
+from rover_pin.kinematics.tasks.clearance import clearance
+
+BRAKED = 1e3
+"""Weight of a rate squared of brakes beside the first of a side, which already holds the rover."""
+
+
+@dataclass(frozen=True)
+class Together:
+    """Both sides' rockers at the same rate, and at angles as far apart as they were.
+
+    Attributes:
+        layout: the rover's sides.
+    """
+
+    layout: Layout
+
+    def rows(self, at: Instant, dt: float) -> Rows:
+        """One row."""
+        row = np.zeros((1, at.rover.model.nv))
+        left, right = (at.rover.column[side.rocker] for side in self.layout.sides)
+        row[0, left], row[0, right] = 1.0, -1.0
+        return Rows(("rockers together",), row, np.zeros(1), np.zeros(1))
+
+
+@dataclass(frozen=True)
+class Standing:
+    """Wheels whose centres do not move over the ground: they do not roll even where their carriers turn.
+
+    Attributes:
+        wheels: their names.
+    """
+
+    wheels: tuple[str, ...]
+
+    def rows(self, at: Instant, dt: float) -> Rows:
+        """A row a wheel."""
+        which = at.index(self.wheels)
+        still_there = np.zeros(len(which))
+        names = tuple(f"standing of {name}" for name in self.wheels)
+        return Rows(names, ground_rows(at, which), still_there, still_there)
+
+
+@dataclass(frozen=True)
+class Reshape(Action):
+    """Bring the belly to a clearance.
+
+    Attributes:
+        layout: the rover's sides.
+        clearance: m, the belly's mean height over the ground to go to.
+        speed: m/s of the belly.
+        braked: wheels that are held: their drives where `hold` is `drive`, so that they roll with the arms
+            that carry them; over the ground where it is `wheel`.
+        hold: `drive` or `wheel`.
+        forward: m/s of the root link meanwhile, or None where it goes where the braked wheels let it.
+        label: what people read.
+
+    Raises:
+        InputError: a clearance or speed that is not above 0, an unknown hold, wheels braked while it drives,
+            or neither.
+    """
+
+    layout: Layout
+    clearance: float
+    speed: float = 0.0036
+    braked: tuple[str, ...] = ()
+    hold: str = "drive"
+    forward: float | None = None
+    label: str = "raise or lower"
+
+    def __post_init__(self) -> None:
+        for word in ("clearance", "speed"):
+            if not number(word, getattr(self, word)) > 0.0:
+                raise InputError("must be above 0", element=word, value=getattr(self, word))
+        if self.hold not in ("drive", "wheel"):
+            raise InputError("no way to hold", element="hold", value=self.hold, cure="drive or wheel")
+        if bool(self.braked) == (self.forward is not None):
+            raise InputError("needs wheels that are braked, or a speed to drive at, one of them",
+                             element=self.label)  # fmt: skip
+
+    @property
+    def name(self) -> str:
+        """What people read."""
+        return self.label
+
+    def command(self, at: Instant, start: Start, dt: float) -> Command:
+        """The first braked wheel of each side is held hard, the others as far as uneven ground lets them."""
+        speed = self.speed
+        tasks: list[Task] = [Clearance(goal=self.clearance, speed=speed, gain=1.0, weight=10.0)]
+        limits: list[Limit] = [Together(self.layout)]
+        moving = tuple(side.rocker for side in self.layout.sides)
+        limits += still(at, self.layout, moving)
+        if self.forward is not None:
+            tasks.append(BaseTwist(forward=self.forward, yaw=0.0))
+            return Command(tuple(tasks), tuple(limits), nominal={"forward": self.forward})
+        first = tuple(next(w for w in side.wheels if w in self.braked) for side in self.layout.sides)
+        others = tuple(wheel for wheel in self.braked if wheel not in first)
+        if self.hold == "wheel":
+            limits.append(Standing(first))
+        else:
+            limits.append(Held(drives_of(at.rover, first)))
+        if others and self.hold == "drive":
+            tasks.append(Rates(dict.fromkeys(drives_of(at.rover, others), 0.0), BRAKED, "brakes"))
+        return Command(tuple(tasks), tuple(limits))
+
+    def left(self, at: Instant, start: Start) -> float:
+        """m of clearance."""
+        return abs(self.clearance - clearance(at))
+
+    def undone(self, start: Start, now: Start) -> Action:
+        """Back to the clearance it had."""
+        forward = None if self.forward is None else -self.forward
+        before = clearance(start.at)
+        label = f"undo {self.label}"
+        return Reshape(self.layout, before, self.speed, self.braked, self.hold, forward, label)
