@@ -46,7 +46,9 @@ class Execution:
         self.dt = dt
         self.action.check(start.at, start)
         self.grip = self.action.grip(start)
-        self._always = always(self.grip)
+        self._always = (*always(self.grip), *self.action.limits(start))
+        self._standing = ContactKept(self.grip.lifted)
+        self._rolling = ContactKept(self.grip.lifted, directions=("normal", "roll"))
         self._check_speeds()
 
     def command(self, at: Instant) -> Command:
@@ -55,8 +57,7 @@ class Execution:
 
     def solve(self, at: Instant, command: Command, watches: Sequence[Limit] = ()) -> Solution:
         """The rates of a cycle."""
-        contacts = self._contacts(command)
-        limits = (*self._always, *contacts, *command.limits, *watches)
+        limits = (*self._always, *self._contacts(command), *watches)
         return self.inverse.solve(at, command.tasks, limits, dt=self.dt)
 
     def finished(self, at: Instant) -> bool:
@@ -73,18 +74,16 @@ class Execution:
         return self.action.undone(self.start, now)
 
     def _contacts(self, command: Command) -> tuple[Limit, ...]:
-        lifted = self.grip.lifted
         if command.slip is None:
-            return (ContactKept(lifted),)
-        hard = ContactKept(lifted, directions=("normal", "roll"))
-        return hard, ContactKept(lifted, directions=("slip",), bend=command.slip)
+            return (self._standing,)
+        return self._rolling, ContactKept(self.grip.lifted, directions=("slip",), bend=command.slip)
 
     def _check_speeds(self) -> None:
         """The first cycle without speed limits: what it asks of every joint must be within its speed."""
         rover = self.inverse.rover
         command = self.command(self.start.at)
         free = [limit for limit in self._always if not isinstance(limit, SpeedLimits)]
-        limits = (*free, *self._contacts(command), *command.limits)
+        limits = (*free, *self._contacts(command))
         found = self.inverse.solve(self.start.at, command.tasks, limits, dt=self.dt)
         if not found.solved:
             return  # the first cycle will say why

@@ -6,9 +6,9 @@ along it; columns are named by `Rover.dof_names`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 import pinocchio as pin
@@ -17,16 +17,18 @@ from numpy.typing import NDArray
 from rover_pin.contact.pack import pack
 from rover_pin.contact.search import find_all
 from rover_pin.errors import InputError
-from rover_pin.kinematics.kernels import velocity_rows
+from rover_pin.kinematics.kernels import tangents, velocity_rows
 from rover_pin.mechanism import Kinematics
 from rover_pin.mechanism.frames import find_frame
-from rover_pin.numerics import Array, cross, frozen
+from rover_pin.numerics import Array, frozen
 
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
     from rover_pin.terrain import Terrain
 
 Integers = NDArray[np.int64]
+
+T = TypeVar("T")
 
 ONE_EACH = 1e-10
 """m: a window this small asks the contact search for one contact a shape."""
@@ -60,6 +62,14 @@ class Bodies:
         self.latest: Instant | None = None
         self._found = np.empty((len(self.names), 8, 7))
         self._counts = np.zeros(len(self.names), dtype=np.int64)
+        self._kept: dict[str, Any] = {}
+
+    def once(self, what: str, work_out: Callable[[], T]) -> T:
+        """What does not change from instant to instant, worked out once."""
+        if what not in self._kept:
+            self._kept[what] = work_out()
+        found: T = self._kept[what]
+        return found
 
     @cached_property
     def chains(self) -> Array:
@@ -179,17 +189,21 @@ class Instant:
         """(s, 7) gap [m], point on the ground [m], unit normal, of each shape's nearest place, world."""
         return self.bodies.touching(self.centers, self.axes)
 
-    @cached_property
+    @property
     def rolling(self) -> Array:
         """(s, 3) unit, world: where each wheel rolls to, in the ground's tangent plane: axis x normal."""
-        found = cross(self.axes, self.contacts[:, 4:7])
-        found /= np.maximum(np.linalg.norm(found, axis=1), 1e-12)[:, None]
-        return found
+        return self._tangents[0]
 
-    @cached_property
+    @property
     def sideways(self) -> Array:
         """(s, 3) unit, world: across the rolling direction, to the left of it, in the tangent plane."""
-        return cross(self.contacts[:, 4:7], self.rolling)
+        return self._tangents[1]
+
+    @cached_property
+    def _tangents(self) -> tuple[Array, Array]:
+        found = np.empty_like(self.axes), np.empty_like(self.axes)
+        tangents(self.axes, self.contacts, *found)
+        return found
 
     def rows(self, joints: Integers, points: Array, directions: Array) -> Array:
         """(k, nv) velocities of points of bodies along directions.

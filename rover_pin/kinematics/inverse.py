@@ -18,7 +18,7 @@ from rover_pin.kinematics.limits import (
     SpeedLimits,
 )
 from rover_pin.kinematics.program import Program, assemble, check
-from rover_pin.kinematics.rows import Aim, Box, Limit, Task, number
+from rover_pin.kinematics.rows import Box, Limit, Task, number
 from rover_pin.kinematics.solution import Outcome, Solution
 from rover_pin.kinematics.solver import solve, solve_patiently
 from rover_pin.numerics import Array
@@ -111,8 +111,8 @@ class InverseKinematics:
             program.row_names[row]: float(value)
             for row, value in zip(program.bending, answer.x[program.nv :], strict=True)
         }
-        missed = {task.name: _miss(aim, velocity) for task, aim in zip(tasks, aims, strict=True)}
-        return Solution(self.rover, Outcome.SOLVED, velocity, slack, missed, residuals, (), program)
+        asked = {task.name: aim for task, aim in zip(tasks, aims, strict=True)}
+        return Solution(self.rover, Outcome.SOLVED, velocity, slack, asked, residuals, (), program)
 
     def _bound_names(
         self, at: Instant, program: Program, boxes: Sequence[Box], dt: float
@@ -126,7 +126,3 @@ class InverseKinematics:
                 if high[i] == program.ceiling[i] and np.isfinite(high[i]):
                     names[i, True] = each.bound_name(dof, True)
         return names
-
-
-def _miss(aim: Aim, velocity: Array) -> float:
-    return float(np.linalg.norm(aim.matrix @ velocity - aim.target))

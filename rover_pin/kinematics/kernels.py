@@ -44,6 +44,26 @@ def velocity_rows(
 
 
 @formula
+def tangents(axes: Array, contacts: Array, rolling: Array, sideways: Array) -> None:
+    """Where wheels roll to, axis x normal, and to the left of it, in the ground's tangent planes.
+
+    Args:
+        axes: (s, 3) unit, world.
+        contacts: (s, 7) gap, point, unit normal.
+        rolling: (s, 3) receives unit vectors; zeros where the axis is along the normal.
+        sideways: (s, 3) likewise.
+    """
+    for i in range(axes.shape[0]):
+        ax, ay, az = axes[i, 0], axes[i, 1], axes[i, 2]
+        nx, ny, nz = contacts[i, 4], contacts[i, 5], contacts[i, 6]
+        x, y, z = ay * nz - az * ny, az * nx - ax * nz, ax * ny - ay * nx
+        share = 1.0 / max(math.sqrt(x * x + y * y + z * z), 1e-12)
+        x, y, z = x * share, y * share, z * share
+        rolling[i, 0], rolling[i, 1], rolling[i, 2] = x, y, z
+        sideways[i, 0], sideways[i, 1], sideways[i, 2] = ny * z - nz * y, nz * x - nx * z, nx * y - ny * x
+
+
+@formula
 def add_cost(rows: Array, targets: Array, weights: Array, hessian: Array, gradient: Array) -> None:
     """Add weight (row v - target)^2 / 2 to hessian and gradient.
 
@@ -136,3 +156,21 @@ def unbalanced(
             along += matrix[i, c] * x[c]
         left = max(left, idle(z[i], along, low[i], high[i]))
     return left / size if math.isfinite(left) else math.inf
+
+
+@formula
+def is_finite(values: Array) -> bool:
+    """Whether every entry of a flat array is a finite number."""
+    good = True
+    for i in range(values.shape[0]):
+        good = good and math.isfinite(values[i])
+    return good
+
+
+@formula
+def has_nan(values: Array) -> bool:
+    """Whether an entry of a flat array is no number."""
+    bad = False
+    for i in range(values.shape[0]):
+        bad = bad or math.isnan(values[i])
+    return bad

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
-from rover_pin.kinematics.kernels import add_cost
+from rover_pin.kinematics.kernels import add_cost, has_nan, is_finite
 from rover_pin.kinematics.rows import Aim, Box, Rows
 from rover_pin.numerics import Array
 
@@ -33,6 +33,7 @@ class Program:
         equation_names: (e,).
         row_names: (m,).
         bending: (n - nv,) row of each slack.
+        pins: (e,) the coordinate that an equation gives its rate, -1 where it binds several.
     """
 
     nv: int
@@ -48,6 +49,7 @@ class Program:
     equation_names: tuple[str, ...]
     row_names: tuple[str, ...]
     bending: NDArray[np.int64]
+    pins: NDArray[np.int64]
 
 
 def assemble(
@@ -70,15 +72,15 @@ def assemble(
     soft: list[float] = []
     names: list[str] = []
     row_names: list[str] = []
+    pins: list[int] = []
     costs = [(aim.matrix, aim.target, aim.weight) for aim in aims]
     for block in blocks:
-        bends = block.bend < np.inf
-        same = bool((block.low == block.high).all())
-        if same and bends:
+        if block.equation and block.bend < np.inf:
             costs.append((block.matrix, block.low, np.full(len(block.low), block.bend)))
-        elif same:
+        elif block.equation:
             equal.append((block.matrix, block.low))
             names.extend(block.names)
+            pins.extend(block.pins or [-1] * len(block.names))
         else:
             between.append((block.matrix, block.low, block.high))
             soft.extend([block.bend] * len(block.names))
@@ -95,7 +97,7 @@ def assemble(
     floor, ceiling = _bounds(at, n, nv, boxes, dt)
     return Program(
         nv, hessian, gradient, equations, right, matrix, low, high, floor, ceiling, tuple(names),
-        tuple(row_names), bending,
+        tuple(row_names), bending, np.array(pins, dtype=np.int64),
     )  # fmt: skip
 
 
@@ -135,19 +137,15 @@ def check(program: Program) -> None:
     Raises:
         InputError: an entry that is not finite, or a side that is no number; named by its row.
     """
-    finite = (
-        np.isfinite(program.hessian).all() and np.isfinite(program.gradient).all(),
-        np.isfinite(program.equations).all() and np.isfinite(program.right).all(),
-        np.isfinite(program.matrix).all(),
-        not (np.isnan(program.low).any() or np.isnan(program.high).any()),
-        not (np.isnan(program.floor).any() or np.isnan(program.ceiling).any()),
-    )
-    if all(finite):
+    p = program
+    numbers = (p.hessian.ravel(), p.gradient, p.equations.ravel(), p.right, p.matrix.ravel())
+    sides = (p.low, p.high, p.floor, p.ceiling)
+    if all(is_finite(values) for values in numbers) and not any(has_nan(values) for values in sides):
         return
     rows = np.isfinite(program.equations).all(axis=1) & np.isfinite(program.right)
-    sides = np.isfinite(program.matrix).all(axis=1) & ~np.isnan(program.low) & ~np.isnan(program.high)
+    between = np.isfinite(p.matrix).all(axis=1) & ~np.isnan(p.low) & ~np.isnan(p.high)
     bad = [name for name, good in zip(program.equation_names, rows, strict=True) if not good]
-    bad += [name for name, good in zip(program.row_names, sides, strict=True) if not good]
+    bad += [name for name, good in zip(program.row_names, between, strict=True) if not good]
     raise InputError(
         "has an entry that is no finite number",
         element=bad[0] if bad else "a task or a bound",

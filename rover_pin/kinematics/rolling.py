@@ -13,6 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from rover_pin.kinematics.instant import Instant, Integers
+from rover_pin.kinematics.kernels import velocity_rows
 from rover_pin.numerics import Array
 
 DIRECTIONS = ("normal", "roll", "slip")
@@ -25,12 +26,12 @@ def contact_rows(at: Instant, which: Integers, directions: Sequence[str] = DIREC
     wheel rolls. `slip`: sliding across it, to the left.
     """
     along = {"normal": at.contacts[:, 4:7], "roll": at.rolling, "slip": at.sideways}
-    times = len(directions)
-    return at.rows(
-        np.tile(at.bodies.rolling_joints[which], times),
-        np.tile(at.contacts[which, 1:4], (times, 1)),
-        np.concatenate([along[word][which] for word in directions]),
-    )
+    joints, points, nv = at.bodies.rolling_joints[which], at.contacts[which, 1:4], at.jacobian.shape[1]
+    rows = np.empty((len(directions) * len(which), nv))
+    for i, word in enumerate(directions):
+        block = rows[i * len(which) : (i + 1) * len(which)]
+        velocity_rows(at.jacobian, at.bodies.chains, joints, points, along[word][which], block)
+    return rows
 
 
 def rim_rows(at: Instant, which: Integers) -> Array:

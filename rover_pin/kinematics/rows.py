@@ -20,9 +20,11 @@ class Rows:
     Attributes:
         names: (k,) what people read where a row fights another.
         matrix: (k, nv).
-        low: (k,) equal to `high` where a row is an equation; -inf where it is open.
+        low: (k,); -inf where a row is open.
         high: (k,).
         bend: weight of the square of what a row may be missed by; inf: rows that do not bend.
+        pins: (k,) columns, where every row is a coordinate itself.
+        equation: whether low and high are the same.
     """
 
     names: tuple[str, ...]
@@ -30,6 +32,26 @@ class Rows:
     low: Array
     high: Array
     bend: float = math.inf
+    pins: tuple[int, ...] = ()
+    equation: bool = False
+
+
+def equations(
+    names: tuple[str, ...], matrix: Array, side: Array, bend: float = math.inf, pins: tuple[int, ...] = ()
+) -> Rows:
+    """Rows matrix v = side."""
+    return Rows(names, matrix, side, side, bend, pins, True)
+
+
+def pinned(at: Instant, word: str, joints: tuple[str, ...], rates: Array) -> Rows:
+    """Rows that give coordinates their rates.
+
+    Raises:
+        InputError: an unknown coordinate, with the nearest names.
+    """
+    places = columns(at, word, joints)
+    names = tuple(f"{word} of {joint}" for joint in joints)
+    return equations(names, picks(at, places), rates, pins=tuple(places))
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,10 @@ from enum import Enum
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from rover_pin.kinematics.conflict import Side
+from rover_pin.kinematics.rows import Aim
 from rover_pin.numerics import Array
 
 if TYPE_CHECKING:
@@ -50,7 +53,7 @@ class Solution:
         outcome: `solved`, `infeasible` or `no_convergence`.
         velocity: (nv,) dq/dt, columns named by `Rover.dof_names`; zeros where it is not solved.
         slack: what rows that bend are missed by [m/s or rad/s], by name.
-        missed: by task, the length of what it is missed by [m/s; angles in rad/s].
+        aims: what each task asked for.
         residuals: `rows` [m/s or rad/s] and `optimality` [-], worked out again from the program.
         fighting: where it is infeasible, a smallest set of rows that cannot hold together.
         program: what was solved.
@@ -60,7 +63,7 @@ class Solution:
     outcome: Outcome
     velocity: Array
     slack: Mapping[str, float]
-    missed: Mapping[str, float]
+    aims: Mapping[str, Aim]
     residuals: Mapping[str, float]
     fighting: tuple[Side, ...] = ()
     program: Program | None = field(default=None, repr=False)
@@ -75,6 +78,14 @@ class Solution:
         """Rate of every joint [rad/s or m/s]."""
         column = self.rover.column
         return {name: float(self.velocity[column[name]]) for name in self.rover.joints}
+
+    @cached_property
+    def missed(self) -> Mapping[str, float]:
+        """By task, the length of what it is missed by [m/s; angles in rad/s]."""
+        return {
+            name: float(np.linalg.norm(aim.matrix @ self.velocity - aim.target))
+            for name, aim in self.aims.items()
+        }
 
     @property
     def reason(self) -> str:

@@ -56,10 +56,21 @@ def solve_patiently(program: Program) -> Answer:
 
 
 def _attempt(program: Program, guess: Any, iterations: int) -> Answer:
-    n, e, m = len(program.gradient), len(program.right), len(program.low)
+    """Solve for the coordinates that no equation pins; multipliers of pins follow from the gradient."""
+    p = program
+    pinning = p.pins >= 0
+    x = np.zeros(len(p.gradient))
+    x[p.pins[pinning]] = p.right[pinning]
+    is_free = np.ones(len(x), dtype=bool)
+    is_free[p.pins[pinning]] = False
+    free, rest = np.flatnonzero(is_free), np.flatnonzero(~pinning)
+    equations = p.equations[rest]
+    hessian, matrix = p.hessian[free], p.matrix[:, free]
+    moved = p.matrix @ x
     qp = proxqp.dense.QP(
-        n, e, m, True, proxqp.dense.HessianType.Dense, proxqp.dense.DenseBackend.PrimalDualLDLT
-    )
+        len(free), len(rest), len(p.low), True, proxqp.dense.HessianType.Dense,
+        proxqp.dense.DenseBackend.PrimalDualLDLT,
+    )  # fmt: skip
     settings = qp.settings
     settings.initial_guess = guess
     settings.max_iter = iterations
@@ -67,16 +78,21 @@ def _attempt(program: Program, guess: Any, iterations: int) -> Answer:
     settings.eps_abs = PRECISION
     settings.eps_rel = 0.0
     qp.init(
-        program.hessian, program.gradient, program.equations, program.right, program.matrix,
-        np.maximum(program.low, -OPEN), np.minimum(program.high, OPEN),
-        np.maximum(program.floor, -OPEN), np.minimum(program.ceiling, OPEN),
+        hessian[:, free], p.gradient[free] + hessian @ x, equations[:, free], p.right[rest] - equations @ x,
+        matrix, np.maximum(p.low - moved, -OPEN), np.minimum(p.high - moved, OPEN),
+        np.maximum(p.floor[free], -OPEN), np.minimum(p.ceiling[free], OPEN),
     )  # fmt: skip
     qp.solve()
     found = qp.results
-    x = np.array(found.x)
-    primal, dual = _misses(program, x, np.array(found.y), np.array(found.z))
-    good = primal <= ACCEPTED and dual <= ACCEPTED
-    return Answer(x, bool(good), primal, dual, int(found.info.iter))
+    x[free] = found.x
+    y, z = np.zeros(len(p.right)), np.zeros(len(p.low) + len(x))
+    y[rest] = found.y
+    z[: len(p.low)] = found.z[: len(p.low)]
+    z[len(p.low) + free] = found.z[len(p.low) :]
+    left = p.hessian @ x + p.gradient + p.equations.T @ y + p.matrix.T @ z[: len(p.low)]
+    y[pinning] = -left[p.pins[pinning]]
+    primal, dual = _misses(p, x, y, z)
+    return Answer(x, primal <= ACCEPTED and dual <= ACCEPTED, primal, dual, int(found.info.iter))
 
 
 def _misses(program: Program, x: Array, y: Array, z: Array) -> tuple[float, float]:

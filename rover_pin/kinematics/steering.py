@@ -19,7 +19,7 @@ from rover_pin.kinematics.rows import number
 from rover_pin.numerics import Array, frozen
 
 UPRIGHT = 0.7
-"""Cosine: a driven joint this near to the ground's normal above a wheel steers it."""
+"""Cosine: a driven joint above a wheel that is this near to the vertical at home steers it."""
 
 STILL = 1e-9
 """m/s: a wheel carried this slowly keeps its angle."""
@@ -71,15 +71,18 @@ class Twist:
 
 
 def steering_joints(at: Instant) -> Mapping[str, str]:
-    """The steering joint of each wheel that has one: the nearest upright driven joint above it."""
-    model, rover = at.bodies.model, at.rover
+    """The steering joint of each wheel that has one: the nearest driven joint above it upright at home."""
+    return at.bodies.once("steering", lambda: _find_steering(at.bodies.at(at.rover.neutral)))
+
+
+def _find_steering(home: Instant) -> Mapping[str, str]:
+    model, rover = home.bodies.model, home.rover
     found = {}
     for place, wheel in enumerate(rover.wheels):
-        joint = int(at.bodies.packed.joints[place])
+        joint = int(home.bodies.packed.joints[place])
         while joint > 1:
             name = str(model.names[joint])
-            axis = at.jacobian[3:, model.idx_vs[joint]]
-            if name in rover.actuated and abs(float(axis @ at.contacts[place, 4:7])) > UPRIGHT:
+            if name in rover.actuated and abs(float(home.jacobian[5, model.idx_vs[joint]])) > UPRIGHT:
                 found[wheel.name] = name
                 break
             joint = int(model.parents[joint])

@@ -60,13 +60,11 @@ class Command:
 
     Attributes:
         tasks: wanted.
-        limits: obeyed besides what always holds.
         slip: weight of side slip squared where it may bend, or None where wheels may not slip.
         nominal: rates of the base without reshaping: `forward`, `left` [m/s], `yaw` [rad/s].
     """
 
     tasks: tuple[Task, ...]
-    limits: tuple[Limit | Box, ...] = ()
     slip: float | None = None
     nominal: Mapping[str, float] = field(default_factory=_free)
 
@@ -98,6 +96,10 @@ class Action(ABC):
         """Clutches and lifted wheels when it is finished."""
         return self.grip(start)
 
+    def limits(self, start: Start) -> tuple[Limit | Box, ...]:
+        """What it obeys besides what always holds, from beginning to end."""
+        return ()
+
     @abstractmethod
     def command(self, at: Instant, start: Start, dt: float) -> Command:
         """What it wants of a cycle of dt [s]."""
@@ -117,11 +119,11 @@ def drives_of(rover: Rover, wheels: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(drive for name in wheels if (drive := by_name[name]) is not None)
 
 
-def still(at: Instant, layout: Layout, moving: tuple[str, ...] = ()) -> tuple[Limit, ...]:
+def still(start: Start, layout: Layout, moving: tuple[str, ...] = ()) -> tuple[Limit, ...]:
     """Steering and rockers that hold, but for those that move."""
     from rover_pin.kinematics.steering import steering_joints
 
-    steering = tuple(joint for joint in steering_joints(at).values() if joint not in moving)
+    steering = tuple(joint for joint in steering_joints(start.at).values() if joint not in moving)
     rockers = tuple(side.rocker for side in layout.sides if side.rocker not in moving)
     return tuple(
         Held(joints, word) for joints, word in ((steering, "steering"), (rockers, "rocker")) if joints

@@ -10,8 +10,8 @@ from rover_pin.control.actions.action import CLOSE, Action, Command, Start, stil
 from rover_pin.control.layout import Layout
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
-from rover_pin.kinematics.rows import Task, number
-from rover_pin.kinematics.steering import Twist, steering_for
+from rover_pin.kinematics.rows import Box, Limit, Task, number
+from rover_pin.kinematics.steering import Twist, steering_for, steering_joints
 from rover_pin.kinematics.tasks import BaseTwist, Posture, Rates
 from rover_pin.numerics import Array
 
@@ -62,20 +62,24 @@ class Drive(Action):
         """Of the root link, m/s."""
         return math.hypot(self.twist.forward, self.twist.left)
 
+    def limits(self, start: Start) -> tuple[Limit | Box, ...]:
+        """Steering and rockers hold but for those that move."""
+        steering = tuple(steering_joints(start.at).values()) if self.follows else ()
+        return still(start, self.layout, (*(self.rockers or {}), *steering))
+
     def command(self, at: Instant, start: Start, dt: float) -> Command:
         """The twist; the last step goes just as far as is left."""
         share = min(1.0, max(self.left(at, start), 0.0) / (self.speed * dt))
         twist = Twist(self.twist.forward * share, self.twist.left * share, self.twist.yaw * share)
         nominal = {"forward": twist.forward, "left": twist.left, "yaw": twist.yaw}
         wanted: list[Task] = [BaseTwist(forward=twist.forward, left=twist.left, yaw=twist.yaw)]
-        moving = tuple(self.rockers or {})
         if self.rockers:
             wanted.append(Rates(dict(self.rockers), name="rockers"))
         if not self.follows:
-            return Command(tuple(wanted), still(at, self.layout, moving), nominal=nominal)
+            return Command(tuple(wanted), nominal=nominal)
         angles = steering_for(at, self.twist, rates=self.rockers)
         wanted.append(Posture(angles, speed=math.inf, gain=1.0, weight=FOLLOWING, name="steering"))
-        return Command(tuple(wanted), still(at, self.layout, (*moving, *angles)), slip=SLIP, nominal=nominal)
+        return Command(tuple(wanted), slip=SLIP, nominal=nominal)
 
     def left(self, at: Instant, start: Start) -> float:
         """m of the way."""

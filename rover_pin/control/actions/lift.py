@@ -10,7 +10,7 @@ from rover_pin.control.layout import Layout, Side
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
 from rover_pin.kinematics.limits import Held
-from rover_pin.kinematics.rows import Limit, Task, number
+from rover_pin.kinematics.rows import Box, Limit, Task, number
 from rover_pin.kinematics.tasks import Rates, WheelLift
 
 
@@ -78,9 +78,14 @@ class LiftWheels(Action):
             return self.grip(start)
         return Grip(start.grip.clutches, tuple(w for w in start.grip.lifted if w not in self.wheels))
 
-    def command(self, at: Instant, start: Start, dt: float) -> Command:
-        """Gaps to the height; one standing wheel a side away from the lifted is braked, the drives follow."""
+    def limits(self, start: Start) -> tuple[Limit | Box, ...]:
+        """The other rockers and the steering hold, and one standing wheel is braked."""
         moving = tuple(side.rocker for side in self._sides)
+        brake = Held(drives_of(start.at.rover, (self.braked(self.grip(start).lifted),)))
+        return (*still(start, self.layout, moving), brake)
+
+    def command(self, at: Instant, start: Start, dt: float) -> Command:
+        """Gaps to the height; the drives follow."""
         gain = 1.0 if self.height > 0.0 else LANDING
         tasks: list[Task] = [
             WheelLift(wheel, height=self.height, speed=self.speed, gain=gain, weight=10.0)
@@ -88,9 +93,7 @@ class LiftWheels(Action):
         ]
         hanging = self.grip(start).lifted
         tasks.append(Rates(dict.fromkeys(drives_of(at.rover, hanging), 0.0), name="hanging wheels"))
-        limits: list[Limit] = list(still(at, self.layout, moving))
-        limits.append(Held(drives_of(at.rover, (self.braked(hanging),))))
-        return Command(tuple(tasks), tuple(limits), slip=SLIP)
+        return Command(tuple(tasks), slip=SLIP)
 
     def braked(self, hanging: tuple[str, ...]) -> str:
         """The wheel that stays in place: of a side that keeps its shape where there is one, in the middle."""

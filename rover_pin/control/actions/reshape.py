@@ -12,7 +12,7 @@ from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
 from rover_pin.kinematics.limits import Held
 from rover_pin.kinematics.rolling import ground_rows
-from rover_pin.kinematics.rows import Limit, Rows, Task, number
+from rover_pin.kinematics.rows import Box, Limit, Rows, Task, equations, number
 from rover_pin.kinematics.tasks import BaseTwist, Clearance, Rates
 from rover_pin.kinematics.tasks.clearance import clearance
 
@@ -35,7 +35,7 @@ class Together:
         row = np.zeros((1, at.rover.model.nv))
         left, right = (at.rover.column[side.rocker] for side in self.layout.sides)
         row[0, left], row[0, right] = 1.0, -1.0
-        return Rows(("rockers together",), row, np.zeros(1), np.zeros(1))
+        return equations(("rockers together",), row, np.zeros(1))
 
 
 @dataclass(frozen=True)
@@ -51,9 +51,8 @@ class Standing:
     def rows(self, at: Instant, dt: float) -> Rows:
         """A row a wheel."""
         which = at.index(self.wheels)
-        still_there = np.zeros(len(which))
         names = tuple(f"standing of {name}" for name in self.wheels)
-        return Rows(names, ground_rows(at, which), still_there, still_there)
+        return equations(names, ground_rows(at, which), np.zeros(len(which)))
 
 
 @dataclass(frozen=True)
@@ -98,25 +97,30 @@ class Reshape(Action):
         """What people read."""
         return self.label
 
-    def command(self, at: Instant, start: Start, dt: float) -> Command:
-        """The first braked wheel of each side is held hard, the others as far as uneven ground lets them."""
-        speed = self.speed
-        tasks: list[Task] = [Clearance(goal=self.clearance, speed=speed, gain=1.0, weight=10.0)]
-        limits: list[Limit] = [Together(self.layout)]
+    def limits(self, start: Start) -> tuple[Limit | Box, ...]:
+        """Rockers together; the first braked wheel of each side is held hard."""
         moving = tuple(side.rocker for side in self.layout.sides)
-        limits += still(at, self.layout, moving)
+        kept: tuple[Limit | Box, ...] = (Together(self.layout), *still(start, self.layout, moving))
+        if not self.braked:
+            return kept
+        first = self._first
+        held = Standing(first) if self.hold == "wheel" else Held(drives_of(start.at.rover, first))
+        return (*kept, held)
+
+    def command(self, at: Instant, start: Start, dt: float) -> Command:
+        """The clearance; other braked wheels turn no more than uneven ground makes them."""
+        tasks: list[Task] = [Clearance(goal=self.clearance, speed=self.speed, gain=1.0, weight=10.0)]
         if self.forward is not None:
             tasks.append(BaseTwist(forward=self.forward, yaw=0.0))
-            return Command(tuple(tasks), tuple(limits), nominal={"forward": self.forward})
-        first = tuple(next(w for w in side.wheels if w in self.braked) for side in self.layout.sides)
-        others = tuple(wheel for wheel in self.braked if wheel not in first)
-        if self.hold == "wheel":
-            limits.append(Standing(first))
-        else:
-            limits.append(Held(drives_of(at.rover, first)))
+            return Command(tuple(tasks), nominal={"forward": self.forward})
+        others = tuple(wheel for wheel in self.braked if wheel not in self._first)
         if others and self.hold == "drive":
             tasks.append(Rates(dict.fromkeys(drives_of(at.rover, others), 0.0), BRAKED, "brakes"))
-        return Command(tuple(tasks), tuple(limits))
+        return Command(tuple(tasks))
+
+    @property
+    def _first(self) -> tuple[str, ...]:
+        return tuple(next(w for w in side.wheels if w in self.braked) for side in self.layout.sides)
 
     def left(self, at: Instant, start: Start) -> float:
         """m of clearance."""

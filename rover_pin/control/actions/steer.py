@@ -9,7 +9,7 @@ from rover_pin.control.actions.action import Action, Command, Start, still
 from rover_pin.control.layout import Layout
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
-from rover_pin.kinematics.rows import columns, number
+from rover_pin.kinematics.rows import Box, Limit, columns, number
 from rover_pin.kinematics.steering import Twist, steering_for, steering_joints
 from rover_pin.kinematics.tasks import BaseTwist, Posture
 
@@ -95,11 +95,15 @@ class Steer(Action):
         """
         at.rover.resolve_posture(self.angles)
 
+    def limits(self, start: Start) -> tuple[Limit | Box, ...]:
+        """Rockers hold."""
+        return still(start, self.layout, tuple(self.angles))
+
     def command(self, at: Instant, start: Start, dt: float) -> Command:
         """The angles; leaning steering axes carry the base a little, which it resists."""
         still_there = BaseTwist(forward=0.0, left=0.0, yaw=0.0)
         wanted = Posture(self.angles, speed=self.speed, gain=1.0, name="steering")
-        return Command((wanted, still_there), still(at, self.layout, tuple(self.angles)))
+        return Command((wanted, still_there))
 
     def left(self, at: Instant, start: Start) -> float:
         """rad: of the joint that has the most to go."""

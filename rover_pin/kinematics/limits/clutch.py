@@ -9,7 +9,7 @@ import numpy as np
 
 from rover_pin.errors import InputError, nearest
 from rover_pin.kinematics.instant import Instant
-from rover_pin.kinematics.rows import Rows, columns, gain_between, number, picks
+from rover_pin.kinematics.rows import Rows, columns, gain_between, number, pinned
 
 
 @dataclass(frozen=True)
@@ -46,4 +46,4 @@ class Clutch:
                 raise InputError("is no joint that can be locked", element="clutch", value=joint, cure=cure)
         places = columns(at, "clutch", tuple(self.joints))
         rate = -self.gain / dt * (at.q[places] - np.array(list(self.joints.values())))
-        return Rows(tuple(f"clutch of {joint}" for joint in self.joints), picks(at, places), rate, rate)
+        return pinned(at, "clutch", tuple(self.joints), rate)

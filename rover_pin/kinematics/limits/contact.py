@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from rover_pin.errors import InputError
-from rover_pin.kinematics.instant import Instant, Integers
+from rover_pin.kinematics.instant import Bodies, Instant, Integers
 from rover_pin.kinematics.rolling import DIRECTIONS, contact_rows
-from rover_pin.kinematics.rows import Rows, gain_between
+from rover_pin.kinematics.rows import Rows, equations, gain_between
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,9 @@ class ContactKept:
     directions: tuple[str, ...] = DIRECTIONS
     gain: float = 0.5
     bend: float = math.inf
-    _kept: dict[tuple[str, ...], tuple[str, ...]] = field(default_factory=dict, repr=False, compare=False)
+    _kept: list[tuple[Bodies, Integers, tuple[str, ...]]] = field(
+        default_factory=list, repr=False, compare=False
+    )
 
     def __post_init__(self) -> None:
         gain_between("contact: gain", self.gain)
@@ -50,22 +52,23 @@ class ContactKept:
         Raises:
             InputError: a lifted wheel that the rover does not have.
         """
-        away = set(at.index(self.lifted).tolist()) if self.lifted else ()
-        which = np.array([i for i in range(len(at.bodies.names)) if i not in away], dtype=np.int64)
+        which, names = self._standing(at)
         matrix = contact_rows(at, which, self.directions)
         rate = np.zeros(len(matrix))
         if "normal" in self.directions:
             first = self.directions.index("normal") * len(which)
             rate[first : first + len(which)] = -self.gain / dt * at.contacts[which, 0]
-        return Rows(self._names(at, which), matrix, rate, rate, self.bend)
+        return equations(names, matrix, rate, self.bend)
 
-    def _names(self, at: Instant, which: Integers) -> tuple[str, ...]:
-        standing = tuple(at.bodies.names[i] for i in which)
-        if standing not in self._kept:
-            self._kept[standing] = tuple(
-                f"{_WORDS[word]} of {name}" for word in self.directions for name in standing
-            )
-        return self._kept[standing]
+    def _standing(self, at: Instant) -> tuple[Integers, tuple[str, ...]]:
+        """Shapes that stand, and the names of their rows; kept, as they are the same in every step."""
+        if not self._kept or self._kept[0][0] is not at.bodies:
+            away = set(at.index(self.lifted).tolist())
+            shapes = at.bodies.names
+            which = np.array([i for i in range(len(shapes)) if i not in away], dtype=np.int64)
+            names = tuple(f"{_WORDS[word]} of {shapes[i]}" for word in self.directions for i in which)
+            self._kept[:] = [(at.bodies, which, names)]
+        return self._kept[0][1:]
 
 
 _WORDS = {"normal": "contact", "roll": "rolling", "slip": "side slip"}

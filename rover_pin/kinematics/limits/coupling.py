@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rover_pin.kinematics.instant import Instant
-from rover_pin.kinematics.rows import Rows, gain_between
+from rover_pin.kinematics.rows import Rows, equations, gain_between
 
 
 @dataclass(frozen=True)
@@ -33,4 +33,4 @@ class CouplingsKept:
         matrix = np.array([each.row for each in couplings]).reshape(-1, nv)
         off = matrix @ at.q - np.array([each.offset for each in couplings])
         rate = -self.gain / dt * off
-        return Rows(tuple(f"coupling {each.name}" for each in couplings), matrix, rate, rate)
+        return equations(tuple(f"coupling {each.name}" for each in couplings), matrix, rate)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from rover_pin.kinematics.instant import Instant
-from rover_pin.kinematics.rows import Rows, columns, picks
+from rover_pin.kinematics.instant import Bodies, Instant
+from rover_pin.kinematics.rows import Rows, pinned
 
 
 @dataclass(frozen=True)
@@ -23,6 +23,7 @@ class Held:
 
     joints: tuple[str, ...]
     word: str = "brake"
+    _kept: list[tuple[Bodies, Rows]] = field(default_factory=list, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "joints", tuple(self.joints))
@@ -33,6 +34,8 @@ class Held:
         Raises:
             InputError: an unknown joint.
         """
-        still = np.zeros(len(self.joints))
-        matrix = picks(at, columns(at, self.word, self.joints))
-        return Rows(tuple(f"{self.word} of {joint}" for joint in self.joints), matrix, still, still)
+        if self._kept and self._kept[0][0] is at.bodies:
+            return self._kept[0][1]
+        found = pinned(at, self.word, self.joints, np.zeros(len(self.joints)))
+        self._kept[:] = [(at.bodies, found)]
+        return found

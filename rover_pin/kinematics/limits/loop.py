@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rover_pin.kinematics.instant import Instant
-from rover_pin.kinematics.rows import Rows, gain_between
+from rover_pin.kinematics.rows import Rows, equations, gain_between
 
 
 @dataclass(frozen=True)
@@ -30,8 +30,8 @@ class LoopsClosed:
         """The loops' rows, one after the other."""
         loops = at.rover.loops
         if not loops:
-            return Rows((), np.zeros((0, at.rover.model.nv)), np.zeros(0), np.zeros(0))
+            return equations((), np.zeros((0, at.rover.model.nv)), np.zeros(0))
         matrix = np.vstack([loop.jacobian(at.mechanism) for loop in loops])
         rate = -self.gain / dt * np.concatenate([loop.residual(at.mechanism) for loop in loops])
         names = tuple(f"loop {loop.name} row {i + 1}" for loop in loops for i in range(loop.size))
-        return Rows(names, matrix, rate, rate)
+        return equations(names, matrix, rate)

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from rover_pin.errors import InputError
-from rover_pin.kinematics.instant import Instant
+from rover_pin.kinematics.instant import Instant, Integers
 from rover_pin.kinematics.rows import Aim, gain_between, number, weight
 from rover_pin.numerics import Array
+from rover_pin.terrain import surface
 
 
 @dataclass(frozen=True)
@@ -66,6 +67,47 @@ def belly_points(at: Instant) -> Array:
     Raises:
         InputError: the rover declares no belly.
     """
+    belly = _belly(at)
+    return np.concatenate(
+        [
+            points @ at.placed[joint].rotation.T + at.placed[joint].translation
+            for joint, points in belly.groups
+        ]
+    )
+
+
+def clearance(at: Instant) -> float:
+    """Mean height of the belly's points over the ground [m]."""
+    found = belly_points(at)
+    ground = at.bodies.terrain
+    heights = [surface(ground.kind, ground.table, ground.params, x, y)[0] for x, y, _ in found.tolist()]
+    return float(found[:, 2].sum() - sum(heights)) / len(heights)
+
+
+def clearance_row(at: Instant) -> Array:
+    """(nv,) rate of `clearance` [m/s]: the points' own, less the ground's slope times their way over it."""
+    found = belly_points(at)
+    ground, count = at.bodies.terrain, len(found)
+    along = np.empty((count, 3))
+    for i, (x, y, _) in enumerate(found.tolist()):
+        _, sx, sy, _, _, _ = surface(ground.kind, ground.table, ground.params, x, y)
+        along[i] = -sx / count, -sy / count, 1.0 / count
+    rows: Array = at.rows(_belly(at).joints, found, along).sum(axis=0)
+    return rows
+
+
+class _Belly(NamedTuple):
+    """The belly's points (p, 3) m in the frames of the joints that carry them, by joint; joints (p,)."""
+
+    groups: list[tuple[int, Array]]
+    joints: Integers
+
+
+def _belly(at: Instant) -> _Belly:
+    return at.bodies.once("belly", lambda: _find_belly(at))
+
+
+def _find_belly(at: Instant) -> _Belly:
     belly = at.rover.belly
     if not belly:
         raise InputError(
@@ -74,23 +116,6 @@ def belly_points(at: Instant) -> Array:
             element="belly",
             cure="declare `belly` in the sidecar",
         )
-    placed = at.placed
-    return np.array(
-        [placed[p.joint].rotation @ np.asarray(p.point) + placed[p.joint].translation for p in belly]
-    )
-
-
-def clearance(at: Instant, points: Sequence[int] | None = None) -> float:
-    """Mean height of the belly's points over the ground [m]; of some of them where `points` says so."""
-    found = belly_points(at)[list(points) if points is not None else slice(None)]
-    return float(np.mean(found[:, 2] - at.bodies.terrain.height(found[:, 0], found[:, 1])))
-
-
-def clearance_row(at: Instant) -> Array:
-    """(nv,) rate of `clearance` [m/s]: the points' own, less the ground's slope times their way over it."""
-    found = belly_points(at)
-    slope = np.asarray(at.bodies.terrain.gradient(found[:, 0], found[:, 1])).reshape(-1, 2)
-    along = np.column_stack([-slope, np.ones(len(found))])
-    joints = np.array([point.joint for point in at.rover.belly], dtype=np.int64)
-    rows: Array = at.rows(joints, found, along).mean(axis=0)
-    return rows
+    joints = sorted({int(point.joint) for point in belly})
+    groups = [(j, np.array([point.point for point in belly if point.joint == j])) for j in joints]
+    return _Belly(groups, np.repeat(np.array(joints, dtype=np.int64), [len(points) for _, points in groups]))
