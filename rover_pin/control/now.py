@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -53,7 +54,7 @@ class Now:
                 )
             object.__setattr__(self, word, rates)
         for wheel, load in (self.loads or {}).items():
-            if not np.isfinite(load):
+            if not math.isfinite(load):
                 raise InputError("is no finite number", element=f"load of {wheel}", value=load)
         object.__setattr__(self, "lifted", tuple(self.lifted))
         object.__setattr__(self, "locked", tuple(self.locked))

@@ -27,6 +27,7 @@ class Reshaping:
 
     def __init__(self, stations: Stations) -> None:
         self.stations = stations
+        self._columns: dict[tuple[str, ...], Integers] = {}
         self._latest: tuple[Instant, tuple[str, ...], tuple[str, ...], Array] | None = None
 
     def rates(self, now: Now) -> Array:
@@ -41,12 +42,14 @@ class Reshaping:
         return kept[3]
 
     def _work_out(self, now: Now) -> Array:
-        rows, free = self._rows(now), self._free(now)
+        if now.locked not in self._columns:
+            self._columns[now.locked] = self._free(now)
+        rows, free = self._rows(now), self._columns[now.locked]
         rockers = self.stations.rockers
         turning = rows[:, rockers]
         found = np.linalg.lstsq(rows[:, free], -turning, rcond=1e-9)[0]
         apart = self.stations.at(now.at).apart_rows
-        rates: Array = np.einsum("sf,fs->s", apart[:, free], found) + apart[[0, 1], rockers]
+        rates: Array = (apart[:, free] @ found).diagonal() + apart[[0, 1], rockers]
         missed = np.abs(rows[:, free] @ found + turning).max(axis=0)
         return np.where(missed > KEPT * np.abs(turning).max(axis=0), 0.0, rates)
 

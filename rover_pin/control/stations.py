@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 YAW = 3
 """Column of the heading's rate."""
 
+UP = np.array([0.0, 0.0, 1.0])
+
 
 class Stations:
     """A rover's sides as motion constraints see them; shared, so that an instant is worked out once.
@@ -31,6 +33,7 @@ class Stations:
         home_ahead: (2,) m, hinge ahead of the second wheel's centre at home.
         wheels: (2, n) places of wheels in the order of the rover's shapes, front to rear.
         hinges: (2,) Pinocchio's ids of the hinges.
+        carriers: (2 n + 4,) ids of the bodies that wheels' centres and, twice, hinges are points of.
         rockers: (2,) columns of the rockers.
 
     Raises:
@@ -44,6 +47,9 @@ class Stations:
         names = [shape.name for shape in rover.shapes]
         self.wheels = np.array([index_of(names, side.wheels) for side in layout.sides])
         self.hinges = np.array([rover.model.getJointId(side.hinge) for side in layout.sides])
+        carried = [shape.joint for shape in rover.shapes]
+        joints = [*(carried[i] for i in self.wheels.ravel()), *self.hinges, *self.hinges]
+        self.carriers = np.array(joints, dtype=np.int64)
         self.rockers = np.array([rover.column[side.rocker] for side in layout.sides])
         self.span = hinge_span(rover, layout)
         if not self.span > 0.0:
@@ -104,30 +110,28 @@ class Placed:
         return self.instant.centers[self.stations.wheels]
 
     @cached_property
-    def _along(self) -> tuple[Array, Array]:
-        stations, (_, n) = self.stations, self.stations.wheels.shape
-        joints = self.instant.bodies.packed.joints[stations.wheels.ravel()]
-        points = np.concatenate([self.centers.reshape(-1, 3), self.hinges])
-        rows = self.instant.rows(
-            np.concatenate([joints, stations.hinges]), points, np.broadcast_to(self.heading, points.shape)
-        )
-        return rows[:-2].reshape(2, n, -1), rows[-2:]
+    def _rows(self) -> tuple[Array, Array, Array]:
+        stations, n = self.stations, self.stations.wheels.size
+        points = np.concatenate([self.centers.reshape(-1, 3), self.hinges, self.hinges])
+        directions = np.empty_like(points)
+        directions[:-2], directions[-2:] = self.heading, UP
+        rows = self.instant.rows(stations.carriers, points, directions)
+        return rows[:n].reshape(2, n // 2, -1), rows[n:-2], rows[-2:]
 
     @property
     def center_rows(self) -> Array:
         """(2, n, nv) velocities [m/s] of wheels' centres along the heading."""
-        return self._along[0]
+        return self._rows[0]
 
     @property
     def hinge_rows(self) -> Array:
         """(2, nv) velocities [m/s] of hinges along the heading."""
-        return self._along[1]
+        return self._rows[1]
 
-    @cached_property
+    @property
     def rise_rows(self) -> Array:
         """(2, nv) velocities [m/s] of hinges upwards."""
-        up = np.broadcast_to(np.array([0.0, 0.0, 1.0]), (2, 3))
-        return self.instant.rows(self.stations.hinges, self.hinges, up)
+        return self._rows[2]
 
     @cached_property
     def apart(self) -> Array:

@@ -84,13 +84,13 @@ def evaluate(
     readings = {}
     for name, constraint in constraints.items():
         value = constraint.value(now)
-        if constraint.kind == "set":
-            index, margin = value, 0.0
-        else:
+        limit, margin = 1.0, 0.0
+        if constraint.kind != "set":
             threshold = threshold_of(name, thresholds)
-            index, margin = np.abs(value) / threshold.limit, threshold.margin
-        crossed = bool(np.any(index > margin + ROUNDING))
-        readings[name] = Reading(name, constraint.parts, value, index, crossed)
+            limit, margin = threshold.limit, threshold.margin
+        index = np.abs(value) / limit
+        beyond = any(each > margin + ROUNDING for each in index.tolist())
+        readings[name] = Reading(name, constraint.parts, value, index, beyond)
     return readings
 
 

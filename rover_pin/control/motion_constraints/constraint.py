@@ -12,7 +12,7 @@ import numpy as np
 
 from rover_pin.control.stations import Stations
 from rover_pin.errors import InputError
-from rover_pin.numerics import Array
+from rover_pin.numerics import Array, frozen
 
 if TYPE_CHECKING:
     from rover_pin.control.now import Now
@@ -81,6 +81,7 @@ class MotionConstraint(ABC):
         self.stations = stations
         self.options = options or Options()
         self.parts: tuple[str, ...] = stations.parts if self.by_side else ("",)
+        self._nothing = frozen(np.zeros(len(self.parts)))
 
     @abstractmethod
     def value(self, now: Now) -> Array:
@@ -91,8 +92,8 @@ class MotionConstraint(ABC):
         """(parts, nv) d value / dq; of a velocity constraint d value / dv. Zeros where it does not apply."""
 
     def offset(self, now: Now) -> Array:
-        """(parts,) of a velocity constraint: value = gradient v + offset."""
-        return np.zeros(len(self.parts))
+        """(parts,) of a velocity constraint: value = gradient v + offset. Not to be written to."""
+        return self._nothing
 
     def __repr__(self) -> str:
         """Name and number."""

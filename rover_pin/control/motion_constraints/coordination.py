@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from rover_pin.control.motion_constraints.constraint import MotionConstraint
+from rover_pin.control.motion_constraints.of_rates import OfRates
 from rover_pin.control.now import Now
 from rover_pin.numerics import Array
 
 
-class Coordination(MotionConstraint):
+class Coordination(OfRates):
     """v_F - v_M - d(d_fm)/dt of each side [m/s] (motion constraint 2), heading axes.
 
     v_F and v_M are what the wheels' turning makes of their centres' speed: (turning of the wheel, which is
@@ -25,24 +25,24 @@ class Coordination(MotionConstraint):
     name = "coordination"
     number = 2
     unit = "m/s"
-    kind = "velocity"
     by_side = True
 
     def value(self, now: Now) -> Array:
         """(2,) m/s, positive where the front wheel turns too fast; NaN where a wheel of the two is lifted."""
-        values: Array = self.gradient(now) @ now.v
-        values[~self.applies(now)] = np.nan
+        values = super().value(now)
+        if now.lifted:
+            values[~self.applies(now)] = np.nan
         return values
 
-    def gradient(self, now: Now) -> Array:
+    def rows(self, now: Now) -> Array:
         """(2, nv) sliding along the heading of the second less that of the front wheel's contact point."""
         at, placed = now.at, self.stations.at(now.at)
         pair = self.stations.wheels[:, :2].T.ravel()
         points = at.contacts[pair, 1:4]
-        along = np.broadcast_to(placed.heading, points.shape)
-        sliding = at.rows(at.bodies.rolling_joints[pair], points, along)
+        sliding = at.rows(at.bodies.rolling_joints[pair], points, np.tile(placed.heading, (4, 1)))
         rows: Array = sliding[2:] - sliding[:2]
-        rows[~self.applies(now)] = 0.0
+        if now.lifted:
+            rows[~self.applies(now)] = 0.0
         return rows
 
     def applies(self, now: Now) -> Array:

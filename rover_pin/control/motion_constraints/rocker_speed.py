@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from rover_pin.control.motion_constraints.constraint import MotionConstraint
+from rover_pin.control.motion_constraints.of_rates import OfRates
 from rover_pin.control.now import Now
 from rover_pin.control.reshaping import Reshaping
 from rover_pin.numerics import Array
 
 
-class RockerSpeed(MotionConstraint):
+class RockerSpeed(OfRates):
     """w / w_max of each side's rocker, where |d(d_fm)/dt| at w_max is the side's speed (motion constraint 6).
 
     w is the rocker's rate, d(d_fm)/dt = w d(d_fm)/dw with the wheels kept on the ground (`Reshaping`), and
@@ -21,15 +21,9 @@ class RockerSpeed(MotionConstraint):
     name = "rocker_speed"
     number = 6
     unit = "1"
-    kind = "velocity"
     by_side = True
 
-    def value(self, now: Now) -> Array:
-        """(2,) with the rocker's sign."""
-        value: Array = self.gradient(now) @ now.v
-        return value
-
-    def gradient(self, now: Now) -> Array:
+    def rows(self, now: Now) -> Array:
         """(2, nv) s/rad, in the rocker's column 1 / w_max."""
         speed = np.abs(self.stations.at(now.at).center_rows.mean(axis=1) @ now.nominal)
         rows = np.zeros((2, len(now.v)))

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from rover_pin.control.motion_constraints.constraint import MotionConstraint
+from rover_pin.control.motion_constraints.of_rates import ChangeOfRates
 from rover_pin.control.now import Now
 from rover_pin.control.stations import YAW
 from rover_pin.numerics import Array
 
 
-class YawChange(MotionConstraint):
+class YawChange(ChangeOfRates):
     """dw_bz / max(|w_bz|, floor) (motion constraint 8).
 
     w_bz is the commanded rate of the heading, dw_bz what the velocity looked at has more of it.
@@ -19,23 +19,12 @@ class YawChange(MotionConstraint):
     name = "yaw_change"
     number = 8
     unit = "1"
-    kind = "velocity"
 
-    def value(self, now: Now) -> Array:
-        """(1,) positive where the body turns further to the left than commanded."""
-        value: Array = self.gradient(now) @ (now.v - now.nominal)
-        return value
-
-    def gradient(self, now: Now) -> Array:
+    def rows(self, now: Now) -> Array:
         """(1, nv) s/rad."""
         row = np.zeros((1, len(now.v)))
         row[0, YAW] = 1.0 / max(abs(float(now.nominal[YAW])), self.options.yaw_floor)
         return row
-
-    def offset(self, now: Now) -> Array:
-        """(1,) less what is commanded."""
-        value: Array = -self.gradient(now) @ now.nominal
-        return value
 
 
 CONSTRAINT = YawChange
