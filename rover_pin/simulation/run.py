@@ -32,9 +32,11 @@ class Run:
         lifted: (n,) names of the wheels held off the ground.
         indices: per motion constraint (n, parts): its index, 1 at its limit; NaN where it was not evaluated.
         values: the same in its own unit.
-        loads: per wheel (n,) N; NaN where the statics were not asked.
+        loads: per wheel (n,) N; NaN where the rover does not stand.
         drift: (n, wheels) m: how far each wheel slid since the start, from places, not from rows.
-        residual: (n,) equilibrium residual of the statics [-]; NaN where they were not asked.
+        residual: (n,) largest residual of the statics; NaN where the rover does not stand.
+        apart: (n,) largest difference [m or rad] between where the motion has the rover and where the statics
+            set it down, drives aside; NaN where it does not stand.
         status: `done`, or why it ended before its end.
         reason: in words, where it did.
     """
@@ -51,5 +53,6 @@ class Run:
     loads: Mapping[str, Array] = field(default_factory=_nothing)
     drift: Array | None = None
     residual: Array | None = None
+    apart: Array | None = None
     status: str = "done"
     reason: str = ""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from abc import abstractmethod
 
-
 from rover_pin.control.motion_constraints.constraint import MotionConstraint, Options
 from rover_pin.control.now import Now
 from rover_pin.control.stations import Stations

@@ -1,0 +1,223 @@
+"""One control cycle after the other: the model, the action's command, the projection, the supervisor."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rover_pin.control.actions import Grip, Start
+from rover_pin.control.execution import Execution
+from rover_pin.control.layout import Layout
+from rover_pin.control.modes import Mode, refuse_start
+from rover_pin.control.motion_constraints import MotionConstraint
+from rover_pin.control.now import Now
+from rover_pin.control.projection import Projection, Watch
+from rover_pin.control.supervisor import AT_REST, Order, State, Supervisor
+from rover_pin.control.threshold import Reading, Threshold
+from rover_pin.errors import InputError, nearest
+from rover_pin.kinematics.instant import Instant
+from rover_pin.kinematics.inverse import InverseKinematics
+from rover_pin.kinematics.solution import Solution
+from rover_pin.kinematics.steering import Twist
+from rover_pin.numerics import Array, frozen
+
+if TYPE_CHECKING:
+    from rover_pin.rover import Rover
+    from rover_pin.terrain import Terrain
+
+
+def _none() -> Mapping[str, Reading]:
+    return MappingProxyType({})
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """What a cycle came to.
+
+    Attributes:
+        order: the supervisor's; it holds for the next cycle.
+        action: name of what was done, empty at a standstill.
+        velocity: (nv,) dq/dt commanded, columns named by `Rover.dof_names`; zeros at a standstill.
+        grip: clutches and lifted wheels while it is done.
+        readings: motion constraints by name, with this velocity.
+        solution: of the projection, where one was asked for.
+    """
+
+    order: Order
+    action: str
+    velocity: Array
+    grip: Grip
+    readings: Mapping[str, Reading] = field(default_factory=_none)
+    solution: Solution | None = None
+
+
+class Controller:
+    """Runs modes, cycle by cycle, on measured configurations.
+
+    Args:
+        rover: what moves.
+        terrain: on what.
+        layout: its sides.
+        constraints: motion constraints by name.
+        thresholds: by mode, then by name of constraint.
+        supervisor: decides when a constraint is reached.
+        dt: s a cycle.
+        gamma: see `Projection`.
+
+    Raises:
+        InputError: a layout that is not the rover's, or a dt that is not above 0.
+    """
+
+    def __init__(
+        self,
+        rover: Rover,
+        terrain: Terrain,
+        layout: Layout,
+        constraints: Mapping[str, MotionConstraint],
+        thresholds: Mapping[str, Mapping[str, Threshold]],
+        supervisor: Supervisor,
+        *,
+        dt: float = 0.01,
+        gamma: float = 5.0,
+    ) -> None:
+        if not (math.isfinite(dt) and dt > 0.0):
+            raise InputError("must be above 0 s", element="dt", value=dt)
+        self.rover = rover
+        self.layout = layout.checked(rover)
+        self.inverse = InverseKinematics(rover, terrain)
+        self.constraints = dict(constraints)
+        self.thresholds = thresholds
+        self.supervisor = supervisor
+        self.dt = dt
+        self.gamma = gamma
+        self.grip = Grip()
+        self._still = frozen(np.zeros(rover.model.nv))
+        self._mode: Mode | None = None
+        self._projection: Projection | None = None
+        self._execution: Execution | None = None
+        self._doing: tuple[State, int] | None = None
+        self._begun: dict[int, Execution] = {}
+
+    def begin(self, mode: Mode, q: Array) -> Order:
+        """Start a mode from a measured configuration (nv,).
+
+        Raises:
+            InputError: a posture that the mode cannot start in, no thresholds for it, another mode still
+                under way, or a configuration with an entry that is not finite.
+        """
+        at = self.inverse.at(np.asarray(q, dtype=np.float64))
+        if mode.name not in self.thresholds:
+            raise InputError(
+                "has no thresholds", element=f"mode {mode.name}", cure=nearest(mode.name, self.thresholds)
+            )
+        projection = Projection(self.constraints, self.thresholds[mode.name], self.gamma)
+        refuse_start(mode, self.layout, at, Start(at, self.grip, self._still))
+        order = self.supervisor.begin(mode.name, mode.words)
+        self._mode, self._projection = mode, projection
+        self._execution, self._doing, self._begun = None, None, {}
+        return order
+
+    def cycle(
+        self, q: Array, *, rates: Array | None = None, loads: Mapping[str, float] | None = None
+    ) -> Cycle:
+        """What to do for the next dt.
+
+        Args:
+            q: (nv,) measured configuration.
+            rates: (nv,) measured dq/dt, or None: a standstill between actions.
+            loads: measured loads of wheels [N], or None.
+        """
+        fault = self._fault(q, rates, loads)
+        if fault:
+            return self._rest(self.supervisor.report(fault=fault))
+        at = self.inverse.at(np.asarray(q, dtype=np.float64))
+        order = self.supervisor.order
+        if order.action is None or order.state in AT_REST:
+            return self._rest(self.supervisor.report())
+        if self._doing != (order.state, order.action):
+            refusal = self._take_up(order, at, self._still if rates is None else np.asarray(rates))
+            if refusal:
+                return self._rest(self.supervisor.report(fault=refusal))
+        execution = self._execution
+        if execution is None:
+            return self._rest(order)
+        if execution.finished(at):
+            self.grip = execution.grip_after
+            return self._rest(self.supervisor.report(finished=True), execution.action.name)
+        return self._move(execution, at, loads)
+
+    def _move(self, execution: Execution, at: Instant, loads: Mapping[str, float] | None) -> Cycle:
+        command = execution.command(at)
+        watch = self._watch(execution, at, command.nominal, loads)
+        solution = execution.solve(at, command, (watch,))
+        name = execution.action.name
+        if not solution.solved:
+            order = self.supervisor.report(infeasible=solution.reason)
+            return Cycle(order, name, self._still, execution.grip, watch.readings(self._still), solution)
+        readings = watch.readings(solution.velocity)
+        crossed = [reading.name for reading in readings.values() if reading.crossed]
+        order = self.supervisor.report(crossed=crossed)
+        velocity = solution.velocity if order.state in (State.RUNNING, State.ROLLING_BACK) else self._still
+        return Cycle(order, name, velocity, execution.grip, readings, solution)
+
+    def _watch(
+        self,
+        execution: Execution,
+        at: Instant,
+        nominal: Mapping[str, float],
+        loads: Mapping[str, float] | None,
+    ) -> Watch:
+        wanted = Twist(**nominal).velocity(at) if nominal else self._still
+        grip = execution.grip
+        now = Now(at, self._still, wanted, grip.lifted, loads, tuple(grip.clutches))
+        if self._projection is None:
+            return Watch((), self.gamma)
+        return self._projection.watch(now)
+
+    def _take_up(self, order: Order, at: Instant, rates: Array) -> str:
+        """Begin the action that is ordered, or its undoing; a refusal in words."""
+        place = order.action
+        if self._mode is None or place is None:
+            return "no mode was begun"
+        start = Start(at, self.grip, rates)
+        undoing = order.state is State.ROLLING_BACK
+        try:
+            if undoing and place not in self._begun:
+                self._execution = None
+                self.supervisor.report(finished=True)
+                return ""
+            action = self._begun[place].undo(start) if undoing else self._mode.actions[place]
+            self._execution = Execution(self.inverse, action, start, self.dt)
+        except InputError as error:
+            self._execution = None
+            return str(error)
+        if not undoing:
+            self._begun[place] = self._execution
+        self.grip = self._execution.grip
+        self._doing = order.state, place
+        return ""
+
+    def _rest(self, order: Order, action: str = "") -> Cycle:
+        return Cycle(order, action, self._still, self.grip)
+
+    def _fault(self, q: Array, rates: Array | None, loads: Mapping[str, float] | None) -> str:
+        """What a sensor tells that cannot be."""
+        for word, values in (("place", q), ("rate", rates)):
+            if values is None:
+                continue
+            numbers = np.asarray(values, dtype=np.float64)
+            if numbers.shape != self._still.shape:
+                return f"{numbers.size} numbers for the {word}s of {self._still.size} coordinates"
+            bad = np.flatnonzero(~np.isfinite(numbers))
+            if len(bad):
+                name = self.rover.dof_names[int(bad[0])]
+                return f"the sensor of {name} tells {numbers[bad[0]]} for its {word}"
+        for wheel, load in (loads or {}).items():
+            if not math.isfinite(load):
+                return f"the load sensor of {wheel} tells {load}"
+        return ""
