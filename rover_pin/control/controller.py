@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from types import MappingProxyType
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,7 +15,7 @@ from rover_pin.control.layout import Layout
 from rover_pin.control.modes import Mode, refuse_start
 from rover_pin.control.motion_constraints import MotionConstraint
 from rover_pin.control.now import Now
-from rover_pin.control.projection import Projection, Watch
+from rover_pin.control.projection import Look, Projection, Watch
 from rover_pin.control.supervisor import AT_REST, Order, State, Supervisor
 from rover_pin.control.threshold import Reading, Threshold
 from rover_pin.errors import InputError, nearest
@@ -31,10 +30,6 @@ if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
 
 
-def _none() -> Mapping[str, Reading]:
-    return MappingProxyType({})
-
-
 @dataclass(frozen=True)
 class Cycle:
     """What a cycle came to.
@@ -44,7 +39,7 @@ class Cycle:
         action: name of what was done, empty at a standstill.
         velocity: (nv,) dq/dt commanded, columns named by `Rover.dof_names`; zeros at a standstill.
         grip: clutches and lifted wheels while it is done.
-        readings: motion constraints by name, with this velocity.
+        look: motion constraints with this velocity, None at a standstill.
         solution: of the projection, where one was asked for.
     """
 
@@ -52,8 +47,13 @@ class Cycle:
     action: str
     velocity: Array
     grip: Grip
-    readings: Mapping[str, Reading] = field(default_factory=_none)
+    look: Look | None = None
     solution: Solution | None = None
+
+    @property
+    def readings(self) -> Mapping[str, Reading]:
+        """Motion constraints by name."""
+        return {} if self.look is None else self.look.readings
 
 
 class Controller:
@@ -98,7 +98,7 @@ class Controller:
         self.grip = Grip()
         self._still = frozen(np.zeros(rover.model.nv))
         self._mode: Mode | None = None
-        self._projection: Projection | None = None
+        self._projection = Projection({}, {}, gamma)
         self._execution: Execution | None = None
         self._doing: tuple[State, int] | None = None
         self._begun: dict[int, Execution] = {}
@@ -158,12 +158,11 @@ class Controller:
         name = execution.action.name
         if not solution.solved:
             order = self.supervisor.report(infeasible=solution.reason)
-            return Cycle(order, name, self._still, execution.grip, watch.readings(self._still), solution)
-        readings = watch.readings(solution.velocity)
-        crossed = [reading.name for reading in readings.values() if reading.crossed]
-        order = self.supervisor.report(crossed=crossed)
+            return Cycle(order, name, self._still, execution.grip, watch.look(self._still), solution)
+        look = watch.look(solution.velocity)
+        order = self.supervisor.report(crossed=look.crossed)
         velocity = solution.velocity if order.state in (State.RUNNING, State.ROLLING_BACK) else self._still
-        return Cycle(order, name, velocity, execution.grip, readings, solution)
+        return Cycle(order, name, velocity, execution.grip, look, solution)
 
     def _watch(
         self,
@@ -175,8 +174,6 @@ class Controller:
         wanted = Twist(**nominal).velocity(at) if nominal else self._still
         grip = execution.grip
         now = Now(at, self._still, wanted, grip.lifted, loads, tuple(grip.clutches))
-        if self._projection is None:
-            return Watch((), self.gamma)
         return self._projection.watch(now)
 
     def _take_up(self, order: Order, at: Instant, rates: Array) -> str:

@@ -21,6 +21,7 @@ from rover_pin.kinematics.limits import (
 from rover_pin.kinematics.rows import Box, Limit
 from rover_pin.kinematics.solution import Solution
 from rover_pin.numerics import Array
+from rover_pin.rover import Rover
 
 BEYOND = 1e-6
 """Share that a wanted rate may exceed a joint's speed by."""
@@ -46,7 +47,7 @@ class Execution:
         self.dt = dt
         self.action.check(start.at, start)
         self.grip = self.action.grip(start)
-        self._always = (*always(self.grip), *self.action.limits(start))
+        self._always = (*always(inverse.rover, self.grip), *self.action.limits(start))
         self._standing = ContactKept(self.grip.lifted)
         self._rolling = ContactKept(self.grip.lifted, directions=("normal", "roll"))
         self._check_speeds()
@@ -100,6 +101,13 @@ class Execution:
             )
 
 
-def always(grip: Grip) -> tuple[Limit | Box, ...]:
-    """What holds whatever is done, but for contacts."""
-    return CouplingsKept(), LoopsClosed(), Clutch(grip.clutches), JointLimits(), SpeedLimits()
+def always(rover: Rover, grip: Grip) -> tuple[Limit | Box, ...]:
+    """What holds whatever is done, but for contacts; what the rover does not have is left out."""
+    limits: list[Limit | Box] = [JointLimits(), SpeedLimits()]
+    if rover.couplings:
+        limits.append(CouplingsKept())
+    if rover.loops:
+        limits.append(LoopsClosed())
+    if grip.clutches:
+        limits.append(Clutch(grip.clutches))
+    return tuple(limits)

@@ -12,13 +12,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
 from rover_pin.control.motion_constraints import MotionConstraint
 from rover_pin.control.now import Now
-from rover_pin.control.threshold import Reading, Threshold, threshold_of
-from rover_pin.errors import InputError
+from rover_pin.control.threshold import Reading, Threshold
+from rover_pin.errors import InputError, nearest
 from rover_pin.kinematics.instant import Instant
 from rover_pin.kinematics.rows import Rows
 from rover_pin.numerics import Array
@@ -28,73 +30,76 @@ REACHED = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
-class Watched:
-    """One motion constraint at one instant.
-
-    Attributes:
-        name: of the constraint.
-        parts: names of its parts.
-        threshold: of the mode; None of a set, which takes none.
-        matrix: (parts, nv) gradient of a posture or velocity constraint, else empty.
-        value: (parts,) its value at no velocity.
-        is_rate: whether `matrix` v adds to the value.
-    """
-
-    name: str
-    parts: tuple[str, ...]
-    threshold: Threshold | None
-    matrix: Array
-    value: Array
-    is_rate: bool
-
-    def reading(self, velocity: Array) -> Reading:
-        """The constraint with that velocity."""
-        value = self.value + self.matrix @ velocity if self.is_rate else self.value
-        if self.threshold is None:
-            return Reading(self.name, self.parts, value, value, bool((value > 0.0).any()))
-        index = np.abs(value) / self.threshold.limit
-        reached = self.threshold.margin * (1.0 - REACHED)
-        return Reading(self.name, self.parts, value, index, any(each >= reached for each in index.tolist()))
-
-
-@dataclass(frozen=True, eq=False)
 class Watch:
     """All motion constraints of a mode at one instant; a limit of the cycle's program.
 
     Attributes:
-        watched: one each.
-        gamma: 1/s.
+        projection: thresholds and names.
+        value: (k,) every part's value at no velocity, in the projection's order; NaN where it does not apply.
+        matrix: (r, nv) gradients of the first r parts, which are those on velocity, then those on posture.
     """
 
-    watched: tuple[Watched, ...]
-    gamma: float
+    projection: Projection
+    value: Array
+    matrix: Array
 
     def rows(self, at: Instant, dt: float) -> Rows:
-        """Rows of constraints on posture and on velocity; parts that do not apply have none."""
-        names: list[str] = []
-        matrices, lows, highs = [], [], []
-        for each in self.watched:
-            if each.threshold is None or not len(each.matrix):
-                continue
-            allowed = each.threshold.allowed
-            low, high = -allowed - each.value, allowed - each.value
-            if not each.is_rate:
-                low, high = self.gamma * low, self.gamma * high
-            names.extend(f"{each.name} {part}".rstrip() for part in each.parts)
-            matrices.append(each.matrix)
-            lows.append(low)
-            highs.append(high)
-        if not matrices:
+        """Rows of the constraints on velocity and on posture; parts that do not apply are open."""
+        projection, steered = self.projection, len(self.matrix)
+        if not steered:
             nothing = np.zeros(0)
             return Rows((), np.zeros((0, at.rover.model.nv)), nothing, nothing)
-        low, high = np.concatenate(lows), np.concatenate(highs)
-        applies = np.isfinite(low)
-        low[~applies], high[~applies] = -np.inf, np.inf
-        return Rows(tuple(names), np.concatenate(matrices), low, high)
+        value, allowed, pace = self.value[:steered], projection.allowed[:steered], projection.pace
+        low, high = pace * (-allowed - value), pace * (allowed - value)
+        if np.isnan(low).any():
+            low, high = np.where(np.isnan(low), -np.inf, low), np.where(np.isnan(high), np.inf, high)
+        return Rows(projection.row_names, self.matrix, low, high)
 
-    def readings(self, velocity: Array) -> dict[str, Reading]:
-        """By name, with that velocity."""
-        return {each.name: each.reading(velocity) for each in self.watched}
+    def look(self, velocity: Array) -> Look:
+        """The constraints with a velocity (nv,)."""
+        value = self.value.copy()
+        rates = self.projection.rates
+        value[:rates] += self.matrix[:rates] @ velocity
+        return Look(self.projection, value)
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """All motion constraints of a mode with a velocity.
+
+    Attributes:
+        projection: thresholds and names.
+        value: (k,) of every part.
+    """
+
+    projection: Projection
+    value: Array
+
+    @cached_property
+    def index(self) -> Array:
+        """(k,) |value| / limit; of a set the number of rules broken."""
+        index: Array = np.abs(self.value) / self.projection.limit
+        return index
+
+    @cached_property
+    def crossed(self) -> tuple[str, ...]:
+        """Names of the constraints that have reached their thresholds."""
+        reached = self.index >= self.projection.reached
+        if not reached.any():
+            return ()
+        parts = self.projection.parts
+        return tuple(dict.fromkeys(parts[i][0] for i in np.flatnonzero(reached)))
+
+    @cached_property
+    def readings(self) -> dict[str, Reading]:
+        """By name of constraint."""
+        found = {}
+        crossed = self.crossed
+        for name, parts, place in self.projection.places:
+            value, index = self.value[place], self.index[place]
+            if not np.isnan(value).all() or name in crossed:
+                found[name] = Reading(name, parts, value, index, name in crossed)
+        return found
 
 
 class Projection:
@@ -104,6 +109,17 @@ class Projection:
         constraints: by name; those that the mode has no threshold for are left out, but for sets.
         thresholds: of the mode, by name.
         gamma: 1/s; how fast what is left to a posture constraint's limit may be used up.
+
+    Attributes:
+        places: name, names of parts and place in flat arrays of every constraint: first those on velocity,
+            then on posture, then on sets and on loads.
+        parts: (k,) names of constraint and part.
+        limit: (k,).
+        allowed: (k,) margin times limit.
+        reached: (k,) index that counts as reached.
+        pace: (r,) what is left to the limit counts as a rate times this: 1 of velocities, gamma of postures.
+        rates: number of parts on velocity.
+        row_names: (r,) of parts on velocity and on posture.
 
     Raises:
         InputError: a threshold for a constraint that is not there, or a gamma that is not above 0.
@@ -118,13 +134,25 @@ class Projection:
         if not (math.isfinite(gamma) and gamma > 0.0):
             raise InputError("must be a finite number above 0", element="gamma", value=gamma)
         for name in thresholds:
-            threshold_of(name, dict.fromkeys(constraints, thresholds[name]))
-        self.gamma = gamma
-        self._watched = [
-            (constraint, thresholds.get(name))
-            for name, constraint in constraints.items()
-            if name in thresholds or constraint.kind == "set"
-        ]
+            if name not in constraints:
+                raise InputError(
+                    "no motion constraint of that name", element=name, cure=nearest(name, constraints)
+                )
+        order = ("velocity", "posture", "set", "load")
+        chosen = [c for name, c in constraints.items() if name in thresholds or c.kind == "set"]
+        self._watched = sorted(chosen, key=lambda constraint: order.index(constraint.kind))
+        ends = np.cumsum([0, *(len(c.parts) for c in self._watched)]).tolist()
+        spans = [slice(a, b) for a, b in pairwise(ends)]
+        self.places = [(c.name, c.parts, span) for c, span in zip(self._watched, spans, strict=True)]
+        self.parts = [(c.name, part) for c in self._watched for part in c.parts]
+        each = [thresholds.get(name) for name, _ in self.parts]
+        self.limit = np.array([1.0 if t is None else t.limit for t in each])
+        self.allowed = np.array([1.0 if t is None else t.allowed for t in each])
+        self.reached = np.array([0.5 if t is None else t.margin * (1.0 - REACHED) for t in each])
+        kinds = [c.kind for c in self._watched for _ in c.parts]
+        self.rates, self._steered = kinds.count("velocity"), kinds.count("velocity") + kinds.count("posture")
+        self.pace = np.where(np.arange(self._steered) < self.rates, 1.0, gamma)
+        self.row_names = tuple(f"{name} {part}".rstrip() for name, part in self.parts[: self._steered])
 
     def watch(self, now: Now) -> Watch:
         """The constraints at an instant; those on loads only where `now` has loads.
@@ -132,17 +160,13 @@ class Projection:
         Args:
             now: with no velocity.
         """
-        found = []
-        for constraint, threshold in self._watched:
+        value, matrix = np.empty(len(self.parts)), np.empty((self._steered, len(now.v)))
+        for constraint, (_, _, place) in zip(self._watched, self.places, strict=True):
             kind = constraint.kind
             if kind == "load" and now.loads is None:
+                value[place] = np.nan
                 continue
-            value = constraint.value(now)
-            matrix = constraint.gradient(now) if kind in ("posture", "velocity") else _NONE
-            found.append(
-                Watched(constraint.name, constraint.parts, threshold, matrix, value, kind == "velocity")
-            )
-        return Watch(tuple(found), self.gamma)
-
-
-_NONE = np.zeros((0, 0))
+            value[place] = constraint.value(now)
+            if kind in ("velocity", "posture"):
+                matrix[place] = constraint.gradient(now)
+        return Watch(self, value, matrix)

@@ -146,11 +146,19 @@ class Instant:
         pin.computeJointJacobians(bodies.model, bodies.data, q)
         bodies.latest = self
         self.jacobian: Array = bodies.data.J.copy()
+        self._kept: dict[str, Any] = {}
 
     @property
     def rover(self) -> Rover:
         """The rover."""
         return self.bodies.rover
+
+    def once(self, what: str, work_out: Callable[[], T]) -> T:
+        """What several ask for at this instant, worked out once."""
+        if what not in self._kept:
+            self._kept[what] = work_out()
+        found: T = self._kept[what]
+        return found
 
     @property
     def placed(self) -> Any:

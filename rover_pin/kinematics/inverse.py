@@ -17,7 +17,7 @@ from rover_pin.kinematics.limits import (
     LoopsClosed,
     SpeedLimits,
 )
-from rover_pin.kinematics.program import Program, assemble, check
+from rover_pin.kinematics.program import Program, assemble
 from rover_pin.kinematics.rows import Box, Limit, Task, number
 from rover_pin.kinematics.solution import Outcome, Solution
 from rover_pin.kinematics.solver import solve, solve_patiently
@@ -92,9 +92,9 @@ class InverseKinematics:
         obeyed = usual_limits() if limits is None else limits
         aims = [task.aim(at, dt) for task in tasks]
         boxes = [cast("Box", limit) for limit in obeyed if hasattr(limit, "box")]
-        blocks = [cast("Limit", limit).rows(at, dt) for limit in obeyed if hasattr(limit, "rows")]
-        program = assemble(at, aims, [block for block in blocks if block.names], boxes, dt, self.damping)
-        check(program)
+        found = [cast("Limit", limit).rows(at, dt) for limit in obeyed if hasattr(limit, "rows")]
+        blocks = [block for block in found if block.names]
+        program = assemble(at, aims, blocks, boxes, dt, self.damping)
         answer = solve(program)
         fighting: tuple[Side, ...] = ()
         if not answer.solved:

@@ -159,18 +159,133 @@ def unbalanced(
 
 
 @formula
-def is_finite(values: Array) -> bool:
-    """Whether every entry of a flat array is a finite number."""
+def reduce(
+    hessian: Array, gradient: Array, equations: Array, right: Array, matrix: Array, low: Array, high: Array,
+    floor: Array, ceiling: Array, pins: Integers, most: float,
+) -> tuple[
+    bool, Integers, Integers, Array, Array, Array, Array, Array, Array, Array, Array, Array
+]:  # fmt: skip
+    """The program of the coordinates that no equation pins.
+
+    Args:
+        hessian: (n, n).
+        gradient: (n,).
+        equations: (e, n).
+        right: (e,).
+        matrix: (m, n).
+        low: (m,).
+        high: (m,).
+        floor: (n,).
+        ceiling: (n,).
+        pins: (e,) the coordinate that an equation gives its value, -1 where it binds several.
+        most: size that open sides are cut to.
+
+    Returns:
+        Whether every entry is a finite number and every side a number; places of free coordinates and of the
+        equations left; then hessian, gradient, equations, right, matrix, low, high, floor, ceiling of those.
+    """
+    n, e, m = gradient.shape[0], right.shape[0], low.shape[0]
     good = True
-    for i in range(values.shape[0]):
-        good = good and math.isfinite(values[i])
-    return good
+    value = np.zeros(n)
+    pinned = np.zeros(n, dtype=np.bool_)
+    kept = 0
+    for i in range(e):
+        good = good and math.isfinite(right[i])
+        if pins[i] >= 0:
+            value[pins[i]] = right[i]
+            pinned[pins[i]] = True
+        else:
+            kept += 1
+    free = np.empty(n - np.sum(pinned), dtype=np.int64)
+    k = 0
+    for c in range(n):
+        good = good and math.isfinite(gradient[c]) and not (math.isnan(floor[c]) or math.isnan(ceiling[c]))
+        if not pinned[c]:
+            free[k] = c
+            k += 1
+    size = free.shape[0]
+    rest = np.empty(kept, dtype=np.int64)
+    h, g, a, b = np.empty((size, size)), np.empty(size), np.empty((kept, size)), np.empty(kept)
+    rows, lower, upper = np.empty((m, size)), np.empty(m), np.empty(m)
+    bottom, top = np.empty(size), np.empty(size)
+    for r in range(size):
+        c = free[r]
+        g[r] = gradient[c]
+        bottom[r], top[r] = max(floor[c], -most), min(ceiling[c], most)
+        for d in range(n):
+            good = good and math.isfinite(hessian[c, d])
+            g[r] += hessian[c, d] * value[d]
+        for s in range(size):
+            h[r, s] = hessian[c, free[s]]
+    k = 0
+    for i in range(e):
+        for d in range(n):
+            good = good and math.isfinite(equations[i, d])
+        if pins[i] >= 0:
+            continue
+        rest[k] = i
+        b[k] = right[i]
+        for d in range(n):
+            b[k] -= equations[i, d] * value[d]
+        for s in range(size):
+            a[k, s] = equations[i, free[s]]
+        k += 1
+    for i in range(m):
+        good = good and not (math.isnan(low[i]) or math.isnan(high[i]))
+        moved = 0.0
+        for d in range(n):
+            good = good and math.isfinite(matrix[i, d])
+            moved += matrix[i, d] * value[d]
+        lower[i], upper[i] = max(low[i] - moved, -most), min(high[i] - moved, most)
+        for s in range(size):
+            rows[i, s] = matrix[i, free[s]]
+    return good, free, rest, h, g, a, b, rows, lower, upper, bottom, top
 
 
 @formula
-def has_nan(values: Array) -> bool:
-    """Whether an entry of a flat array is no number."""
-    bad = False
-    for i in range(values.shape[0]):
-        bad = bad or math.isnan(values[i])
-    return bad
+def expand(
+    hessian: Array, gradient: Array, equations: Array, right: Array, matrix: Array, pins: Integers,
+    free: Integers, rest: Integers, part: Array, y_part: Array, z_part: Array,
+) -> tuple[Array, Array, Array]:  # fmt: skip
+    """The point and multipliers of the whole program; those of pins follow from the gradient.
+
+    Args:
+        hessian: (n, n).
+        gradient: (n,).
+        equations: (e, n).
+        right: (e,).
+        matrix: (m, n).
+        pins: (e,).
+        free: places of free coordinates.
+        rest: places of the equations that are no pins.
+        part: the free coordinates.
+        y_part: multipliers of the rest.
+        z_part: of the rows, then of the free coordinates' bounds.
+
+    Returns:
+        x (n,), y (e,), z (m + n,).
+    """
+    n, e, m = gradient.shape[0], right.shape[0], matrix.shape[0]
+    x, y, z = np.zeros(n), np.zeros(e), np.zeros(m + n)
+    for i in range(e):
+        if pins[i] >= 0:
+            x[pins[i]] = right[i]
+    for r in range(free.shape[0]):
+        x[free[r]] = part[r]
+        z[m + free[r]] = z_part[m + r]
+    for k in range(rest.shape[0]):
+        y[rest[k]] = y_part[k]
+    z[:m] = z_part[:m]
+    for i in range(e):
+        c = pins[i]
+        if c < 0:
+            continue
+        left = gradient[c]
+        for d in range(n):
+            left += hessian[c, d] * x[d]
+        for k in range(rest.shape[0]):
+            left += equations[rest[k], c] * y[rest[k]]
+        for k in range(m):
+            left += matrix[k, c] * z[k]
+        y[i] = -left
+    return x, y, z

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
-from rover_pin.kinematics.kernels import add_cost, has_nan, is_finite
+from rover_pin.kinematics.kernels import add_cost
 from rover_pin.kinematics.rows import Aim, Box, Rows
 from rover_pin.numerics import Array
 
@@ -68,62 +69,50 @@ def assemble(
         damping: (nv,) weight of each coordinate's own rate squared: chooses among motions equal else.
     """
     nv = len(damping)
-    equal, between = [], []
-    soft: list[float] = []
-    names: list[str] = []
-    row_names: list[str] = []
-    pins: list[int] = []
-    costs = [(aim.matrix, aim.target, aim.weight) for aim in aims]
-    for block in blocks:
-        if block.equation and block.bend < np.inf:
-            costs.append((block.matrix, block.low, np.full(len(block.low), block.bend)))
-        elif block.equation:
-            equal.append((block.matrix, block.low))
-            names.extend(block.names)
-            pins.extend(block.pins or [-1] * len(block.names))
-        else:
-            between.append((block.matrix, block.low, block.high))
-            soft.extend([block.bend] * len(block.names))
-            row_names.extend(block.names)
-    bend = np.array(soft)
-    bending = np.flatnonzero(bend < np.inf)
+    equal = [block for block in blocks if block.equation and block.bend == math.inf]
+    between = [block for block in blocks if not block.equation]
+    soft = [
+        Aim(b.matrix, b.low, np.full(len(b.low), b.bend)) for b in blocks if b.equation and b.bend < math.inf
+    ]
+    bends = [block.bend for block in between for _ in block.names]
+    bending = np.array([i for i, bend in enumerate(bends) if bend < math.inf], dtype=np.int64)
     n = nv + len(bending)
-    hessian, gradient = _cost(n, nv, costs, damping)
-    hessian[range(nv, n), range(nv, n)] = bend[bending]
-    equations, right = _stacked(n, nv, [rows for rows, _ in equal], [side for _, side in equal])
-    matrix, low = _stacked(n, nv, [rows for rows, _, _ in between], [side for _, side, _ in between])
-    high = np.concatenate([side for _, _, side in between]) if between else np.zeros(0)
-    matrix[bending, range(nv, n)] = 1.0
+    hessian, gradient = np.zeros((n, n)), np.zeros(n)
+    diagonal = hessian.ravel()[:: n + 1]
+    diagonal[:nv] = damping
+    for aim in (*aims, *soft):
+        add_cost(aim.matrix, aim.target, aim.weight, hessian, gradient)
+    equations, right = _stacked(n, nv, equal)
+    matrix, low = _stacked(n, nv, between)
+    high = np.concatenate([block.high for block in between]) if between else np.zeros(0)
+    if len(bending):
+        diagonal[nv:] = [bends[i] for i in bending]
+        matrix[bending, range(nv, n)] = 1.0
     floor, ceiling = _bounds(at, n, nv, boxes, dt)
+    pins = [pin for block in equal for pin in (block.pins or (-1,) * len(block.names))]
     return Program(
-        nv, hessian, gradient, equations, right, matrix, low, high, floor, ceiling, tuple(names),
-        tuple(row_names), bending, np.array(pins, dtype=np.int64),
+        nv, hessian, gradient, equations, right, matrix, low, high, floor, ceiling,
+        tuple(name for block in equal for name in block.names),
+        tuple(name for block in between for name in block.names), bending, np.array(pins, dtype=np.int64),
     )  # fmt: skip
 
 
-def _cost(
-    n: int, nv: int, costs: Sequence[tuple[Array, Array, Array]], damping: Array
-) -> tuple[Array, Array]:
-    hessian, gradient = np.zeros((n, n)), np.zeros(n)
-    hessian[range(nv), range(nv)] = damping
-    if costs:
-        rows = np.concatenate([matrix for matrix, _, _ in costs])
-        targets = np.concatenate([target for _, target, _ in costs])
-        weights = np.concatenate([weight for _, _, weight in costs])
-        add_cost(rows, targets, weights, hessian, gradient)
-    return hessian, gradient
-
-
-def _stacked(n: int, nv: int, matrices: Sequence[Array], sides: Sequence[Array]) -> tuple[Array, Array]:
-    side = np.concatenate(sides) if sides else np.zeros(0)
+def _stacked(n: int, nv: int, blocks: Sequence[Rows]) -> tuple[Array, Array]:
+    """Matrices and low sides, with room for slacks."""
+    if not blocks:
+        return np.zeros((0, n)), np.zeros(0)
+    side = np.concatenate([block.low for block in blocks])
+    if n == nv:
+        return np.concatenate([block.matrix for block in blocks]), side
     matrix = np.zeros((len(side), n))
-    if sides:
-        np.concatenate(matrices, out=matrix[:, :nv])
+    np.concatenate([block.matrix for block in blocks], out=matrix[:, :nv])
     return matrix, side
 
 
 def _bounds(at: Instant, n: int, nv: int, boxes: Sequence[Box], dt: float) -> tuple[Array, Array]:
-    floor, ceiling = np.full(n, -np.inf), np.full(n, np.inf)
+    floor, ceiling = np.empty(n), np.empty(n)
+    floor.fill(-np.inf)
+    ceiling.fill(np.inf)
     for box in boxes:
         low, high = box.box(at, dt)
         np.maximum(floor[:nv], low, out=floor[:nv])
@@ -131,21 +120,17 @@ def _bounds(at: Instant, n: int, nv: int, boxes: Sequence[Box], dt: float) -> tu
     return floor, ceiling
 
 
-def check(program: Program) -> None:
-    """Refuse what a solver would spin on.
+def refuse(program: Program) -> None:
+    """Say which entry of a program is no number.
 
     Raises:
-        InputError: an entry that is not finite, or a side that is no number; named by its row.
+        InputError: named by its row.
     """
     p = program
-    numbers = (p.hessian.ravel(), p.gradient, p.equations.ravel(), p.right, p.matrix.ravel())
-    sides = (p.low, p.high, p.floor, p.ceiling)
-    if all(is_finite(values) for values in numbers) and not any(has_nan(values) for values in sides):
-        return
-    rows = np.isfinite(program.equations).all(axis=1) & np.isfinite(program.right)
+    rows = np.isfinite(p.equations).all(axis=1) & np.isfinite(p.right)
     between = np.isfinite(p.matrix).all(axis=1) & ~np.isnan(p.low) & ~np.isnan(p.high)
-    bad = [name for name, good in zip(program.equation_names, rows, strict=True) if not good]
-    bad += [name for name, good in zip(program.row_names, between, strict=True) if not good]
+    bad = [name for name, good in zip(p.equation_names, rows, strict=True) if not good]
+    bad += [name for name, good in zip(p.row_names, between, strict=True) if not good]
     raise InputError(
         "has an entry that is no finite number",
         element=bad[0] if bad else "a task or a bound",

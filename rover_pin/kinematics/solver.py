@@ -9,11 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 from proxsuite import proxqp
 
-from rover_pin.kinematics.kernels import beyond, outside, unbalanced
-from rover_pin.kinematics.program import Program
+from rover_pin.kinematics.kernels import beyond, expand, outside, reduce, unbalanced
+from rover_pin.kinematics.program import Program, refuse
 from rover_pin.numerics import Array
 
 ITERATIONS = 100
@@ -46,7 +45,11 @@ class Answer:
 
 
 def solve(program: Program) -> Answer:
-    """The least of the program, or the best that came out, marked as not solved."""
+    """The least of the program, or the best that came out, marked as not solved.
+
+    Raises:
+        InputError: an entry that is not finite, or a side that is no number; named by its row.
+    """
     return _attempt(program, proxqp.InitialGuess.EQUALITY_CONSTRAINED_INITIAL_GUESS, ITERATIONS)
 
 
@@ -56,48 +59,26 @@ def solve_patiently(program: Program) -> Answer:
 
 
 def _attempt(program: Program, guess: Any, iterations: int) -> Answer:
-    """Solve for the coordinates that no equation pins; multipliers of pins follow from the gradient."""
+    """Solve for the coordinates that no equation pins."""
     p = program
-    pinning = p.pins >= 0
-    x = np.zeros(len(p.gradient))
-    x[p.pins[pinning]] = p.right[pinning]
-    is_free = np.ones(len(x), dtype=bool)
-    is_free[p.pins[pinning]] = False
-    free, rest = np.flatnonzero(is_free), np.flatnonzero(~pinning)
-    equations = p.equations[rest]
-    hessian, matrix = p.hessian[free], p.matrix[:, free]
-    moved = p.matrix @ x
-    qp = proxqp.dense.QP(
-        len(free), len(rest), len(p.low), True, proxqp.dense.HessianType.Dense,
-        proxqp.dense.DenseBackend.PrimalDualLDLT,
-    )  # fmt: skip
+    good, free, rest, *parts = reduce(
+        p.hessian, p.gradient, p.equations, p.right, p.matrix, p.low, p.high, p.floor, p.ceiling, p.pins, OPEN
+    )
+    if not good:
+        refuse(p)
+    qp = proxqp.dense.QP(len(free), len(rest), len(p.low), True, _DENSE, _BACKEND)
     settings = qp.settings
     settings.initial_guess = guess
     settings.max_iter = iterations
     settings.max_iter_in = ITERATIONS
     settings.eps_abs = PRECISION
     settings.eps_rel = 0.0
-    qp.init(
-        hessian[:, free], p.gradient[free] + hessian @ x, equations[:, free], p.right[rest] - equations @ x,
-        matrix, np.maximum(p.low - moved, -OPEN), np.minimum(p.high - moved, OPEN),
-        np.maximum(p.floor[free], -OPEN), np.minimum(p.ceiling[free], OPEN),
-    )  # fmt: skip
+    qp.init(*parts)
     qp.solve()
     found = qp.results
-    x[free] = found.x
-    y, z = np.zeros(len(p.right)), np.zeros(len(p.low) + len(x))
-    y[rest] = found.y
-    z[: len(p.low)] = found.z[: len(p.low)]
-    z[len(p.low) + free] = found.z[len(p.low) :]
-    left = p.hessian @ x + p.gradient + p.equations.T @ y + p.matrix.T @ z[: len(p.low)]
-    y[pinning] = -left[p.pins[pinning]]
-    primal, dual = _misses(p, x, y, z)
-    return Answer(x, primal <= ACCEPTED and dual <= ACCEPTED, primal, dual, int(found.info.iter))
-
-
-def _misses(program: Program, x: Array, y: Array, z: Array) -> tuple[float, float]:
-    """Primal and dual miss; what is not finite counts as infinite."""
-    p = program
+    x, y, z = expand(
+        p.hessian, p.gradient, p.equations, p.right, p.matrix, p.pins, free, rest, found.x, found.y, found.z
+    )
     primal = max(
         outside(p.equations, p.right, p.right, x),
         outside(p.matrix, p.low, p.high, x),
@@ -106,4 +87,8 @@ def _misses(program: Program, x: Array, y: Array, z: Array) -> tuple[float, floa
     dual = unbalanced(
         p.hessian, p.gradient, p.equations, p.matrix, p.low, p.high, p.floor, p.ceiling, x, y, z
     )  # fmt: skip
-    return primal, dual
+    return Answer(x, primal <= ACCEPTED and dual <= ACCEPTED, primal, dual, int(found.info.iter))
+
+
+_DENSE = proxqp.dense.HessianType.Dense
+_BACKEND = proxqp.dense.DenseBackend.PrimalDualLDLT

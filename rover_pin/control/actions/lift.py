@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
+
+import numpy as np
 
 from rover_pin.control.actions.action import Action, Command, Grip, Start, drives_of, still
 from rover_pin.control.layout import Layout, Side
@@ -12,11 +13,12 @@ from rover_pin.kinematics.instant import Instant
 from rover_pin.kinematics.limits import Held
 from rover_pin.kinematics.rows import Box, Limit, Task, number
 from rover_pin.kinematics.tasks import Rates, WheelLift
+from rover_pin.kinematics.tasks.wheel_lift import height
 
 
 @dataclass(frozen=True)
 class LiftWheels(Action):
-    """Bring the gap of wheels to a height; at 0 they are let down and stand when it ends.
+    """Bring wheels to a height over the ground below; at 0 they are let down and stand when it ends.
 
     Attributes:
         layout: the rover's sides.
@@ -103,13 +105,15 @@ class LiftWheels(Action):
 
     def left(self, at: Instant, start: Start) -> float:
         """m of the wheel that has the most to go."""
-        gaps = at.contacts[at.index(self.wheels), 0]
-        return max(math.fabs(float(gap) - self.height) for gap in gaps)
+        which = at.index(self.wheels)
+        if self.height == 0.0:
+            return float(np.max(np.abs(at.contacts[which, 0])))
+        return max(abs(height(at, place) - self.height) for place in which.tolist())
 
     def undone(self, start: Start, now: Start) -> Action:
         """Back to the gaps they had."""
-        gaps = start.at.contacts[start.at.index(self.wheels), 0]
-        was = 0.0 if not set(self.wheels) <= set(start.grip.lifted) else max(float(gap) for gap in gaps)
+        stood = not set(self.wheels) <= set(start.grip.lifted)
+        was = 0.0 if stood else max(height(start.at, i) for i in start.at.index(self.wheels).tolist())
         return LiftWheels(self.layout, self.wheels, was, self.speed, f"undo {self.name}")
 
 

@@ -13,7 +13,7 @@ from rover_pin.kinematics.instant import Instant
 from rover_pin.kinematics.limits import Held
 from rover_pin.kinematics.rolling import ground_rows
 from rover_pin.kinematics.rows import Box, Limit, Rows, Task, equations, number
-from rover_pin.kinematics.tasks import BaseTwist, Clearance, Rates
+from rover_pin.kinematics.tasks import BaseTwist, Clearance, Posture, Rates
 from rover_pin.kinematics.tasks.clearance import clearance
 
 BRAKED = 1e3
@@ -61,31 +61,37 @@ class Reshape(Action):
 
     Attributes:
         layout: the rover's sides.
-        clearance: m, the belly's mean height over the ground to go to.
+        clearance: m, the belly's mean height over the ground to go to; None where `angle` is the goal.
         speed: m/s of the belly.
         braked: wheels that are held: their drives where `hold` is `drive`, so that they roll with the arms
             that carry them; over the ground where it is `wheel`.
         hold: `drive` or `wheel`.
         forward: m/s of the root link meanwhile, or None where it goes where the braked wheels let it.
+        angle: rad, both rockers' to go to, on ground where a clearance means nothing; None where `clearance` is
+            the goal.
         label: what people read.
 
     Raises:
-        InputError: a clearance or speed that is not above 0, an unknown hold, wheels braked while it drives,
-            or neither.
+        InputError: a clearance or speed that is not above 0, both goals or none, an unknown hold, wheels braked
+            while it drives, or neither.
     """
 
     layout: Layout
-    clearance: float
+    clearance: float | None
     speed: float = 0.0036
     braked: tuple[str, ...] = ()
     hold: str = "drive"
     forward: float | None = None
+    angle: float | None = None
     label: str = "raise or lower"
 
     def __post_init__(self) -> None:
         for word in ("clearance", "speed"):
-            if not number(word, getattr(self, word)) > 0.0:
-                raise InputError("must be above 0", element=word, value=getattr(self, word))
+            value = getattr(self, word)
+            if value is not None and not number(word, value) > 0.0:
+                raise InputError("must be above 0", element=word, value=value)
+        if (self.clearance is None) == (self.angle is None):
+            raise InputError("needs a clearance or an angle to go to, one of them", element=self.label)
         if self.hold not in ("drive", "wheel"):
             raise InputError("no way to hold", element="hold", value=self.hold, cure="drive or wheel")
         if bool(self.braked) == (self.forward is not None):
@@ -109,7 +115,7 @@ class Reshape(Action):
 
     def command(self, at: Instant, start: Start, dt: float) -> Command:
         """The clearance; other braked wheels turn no more than uneven ground makes them."""
-        tasks: list[Task] = [Clearance(goal=self.clearance, speed=self.speed, gain=1.0, weight=10.0)]
+        tasks: list[Task] = [self._goal(at)]
         if self.forward is not None:
             tasks.append(BaseTwist(forward=self.forward, yaw=0.0))
             return Command(tuple(tasks), nominal={"forward": self.forward})
@@ -118,17 +124,30 @@ class Reshape(Action):
             tasks.append(Rates(dict.fromkeys(drives_of(at.rover, others), 0.0), BRAKED, "brakes"))
         return Command(tuple(tasks))
 
+    def _goal(self, at: Instant) -> Task:
+        if self.clearance is not None:
+            return Clearance(goal=self.clearance, speed=self.speed, gain=1.0, weight=10.0)
+        rockers = dict.fromkeys((side.rocker for side in self.layout.sides), float(self.angle or 0.0))
+        pace = self.speed / (0.5 * at.rover.wheel_span)  # a rocker is about as long as half the wheels' span
+        return Posture(rockers, speed=pace, gain=1.0, weight=10.0, name="rockers")
+
     @property
     def _first(self) -> tuple[str, ...]:
         return tuple(next(w for w in side.wheels if w in self.braked) for side in self.layout.sides)
 
     def left(self, at: Instant, start: Start) -> float:
-        """m of clearance."""
-        return abs(self.clearance - clearance(at))
+        """m of clearance, or rad of the rockers."""
+        if self.clearance is not None:
+            return abs(self.clearance - clearance(at))
+        return max(abs(float(self.angle or 0.0) - angle) for angle in self._angles(at))
 
     def undone(self, start: Start, now: Start) -> Action:
         """Back to the clearance it had."""
         forward = None if self.forward is None else -self.forward
-        before = clearance(start.at)
+        before = clearance(start.at) if self.clearance is not None else None
+        angle = None if self.angle is None else sum(self._angles(start.at)) / 2.0
         label = f"undo {self.label}"
-        return Reshape(self.layout, before, self.speed, self.braked, self.hold, forward, label)
+        return Reshape(self.layout, before, self.speed, self.braked, self.hold, forward, angle, label)
+
+    def _angles(self, at: Instant) -> list[float]:
+        return [float(at.q[at.rover.column[side.rocker]]) for side in self.layout.sides]

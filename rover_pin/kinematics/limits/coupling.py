@@ -8,6 +8,7 @@ import numpy as np
 
 from rover_pin.kinematics.instant import Instant
 from rover_pin.kinematics.rows import Rows, equations, gain_between
+from rover_pin.numerics import Array
 
 
 @dataclass(frozen=True)
@@ -28,9 +29,12 @@ class CouplingsKept:
 
     def rows(self, at: Instant, dt: float) -> Rows:
         """A row a coupling."""
-        couplings = at.rover.couplings
-        nv = at.rover.model.nv
-        matrix = np.array([each.row for each in couplings]).reshape(-1, nv)
-        off = matrix @ at.q - np.array([each.offset for each in couplings])
-        rate = -self.gain / dt * off
-        return equations(tuple(f"coupling {each.name}" for each in couplings), matrix, rate)
+        names, matrix, offset = at.bodies.once("couplings", lambda: _stacked(at))
+        return equations(names, matrix, self.gain / dt * (offset - matrix @ at.q))
+
+
+def _stacked(at: Instant) -> tuple[tuple[str, ...], Array, Array]:
+    couplings = at.rover.couplings
+    matrix = np.array([each.row for each in couplings]).reshape(-1, at.rover.model.nv)
+    offset = np.array([each.offset for each in couplings])
+    return tuple(f"coupling {each.name}" for each in couplings), matrix, offset

@@ -78,22 +78,28 @@ def belly_points(at: Instant) -> Array:
 
 def clearance(at: Instant) -> float:
     """Mean height of the belly's points over the ground [m]."""
-    found = belly_points(at)
-    ground = at.bodies.terrain
-    heights = [surface(ground.kind, ground.table, ground.params, x, y)[0] for x, y, _ in found.tolist()]
-    return float(found[:, 2].sum() - sum(heights)) / len(heights)
+    ground = _ground(at)
+    return float(belly_points(at)[:, 2].sum() - ground[:, 0].sum()) / len(ground)
 
 
 def clearance_row(at: Instant) -> Array:
     """(nv,) rate of `clearance` [m/s]: the points' own, less the ground's slope times their way over it."""
-    found = belly_points(at)
-    ground, count = at.bodies.terrain, len(found)
-    along = np.empty((count, 3))
-    for i, (x, y, _) in enumerate(found.tolist()):
-        _, sx, sy, _, _, _ = surface(ground.kind, ground.table, ground.params, x, y)
-        along[i] = -sx / count, -sy / count, 1.0 / count
+    found, along = belly_points(at), -_ground(at)
+    along[:, :2] = along[:, 1:]
+    along[:, 2] = 1.0
     rows: Array = at.rows(_belly(at).joints, found, along).sum(axis=0)
-    return rows
+    return rows / len(found)
+
+
+def _ground(at: Instant) -> Array:
+    """(p, 3) height [m] and slopes of the ground under the belly's points."""
+    ground = at.bodies.terrain
+
+    def look() -> Array:
+        places = belly_points(at).tolist()
+        return np.array([surface(ground.kind, ground.table, ground.params, x, y)[:3] for x, y, _ in places])
+
+    return at.once("ground below the belly", look)
 
 
 class _Belly(NamedTuple):

@@ -10,6 +10,7 @@ import numpy as np
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
 from rover_pin.kinematics.rows import Aim, columns, gain_between, number, picks, weight
+from rover_pin.numerics import Array
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,13 @@ class Posture:
         Raises:
             InputError: an unknown joint.
         """
-        places = columns(at, self.name, tuple(self.joints))
+        names = tuple(self.joints)
+        places, rows = at.bodies.once(f"picks {names}", lambda: _picked(at, self.name, names))
         way = self.gain * (np.array(list(self.joints.values())) - at.q[places]) / dt
         target = np.clip(way, -self.speed, self.speed)
-        return Aim(picks(at, places), target, np.full(len(places), self.weight))
+        return Aim(rows, target, np.full(len(places), self.weight))
+
+
+def _picked(at: Instant, element: str, names: tuple[str, ...]) -> tuple[list[int], Array]:
+    places = columns(at, element, names)
+    return places, picks(at, places)

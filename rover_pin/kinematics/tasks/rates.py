@@ -10,6 +10,7 @@ import numpy as np
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
 from rover_pin.kinematics.rows import Aim, columns, number, picks, weight
+from rover_pin.numerics import Array
 
 
 @dataclass(frozen=True)
@@ -43,6 +44,12 @@ class Rates:
         Raises:
             InputError: an unknown coordinate.
         """
-        places = columns(at, self.name, tuple(self.rates))
+        names = tuple(self.rates)
+        places, rows = at.bodies.once(f"picks {names}", lambda: _picked(at, self.name, names))
         target = np.array(list(self.rates.values()))
-        return Aim(picks(at, places), target, np.full(len(places), self.weight))
+        return Aim(rows, target, np.full(len(places), self.weight))
+
+
+def _picked(at: Instant, element: str, names: tuple[str, ...]) -> tuple[list[int], Array]:
+    places = columns(at, element, names)
+    return places, picks(at, places)

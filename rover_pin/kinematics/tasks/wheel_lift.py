@@ -2,24 +2,29 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from rover_pin.errors import InputError
-from rover_pin.kinematics.instant import Instant
+from rover_pin.kinematics.instant import Instant, Integers
 from rover_pin.kinematics.rolling import contact_rows
 from rover_pin.kinematics.rows import Aim, gain_between, number, weight
+from rover_pin.numerics import Array
 
 
 @dataclass(frozen=True)
 class WheelLift:
-    """Rate of a wheel's gap to the ground, or a gap to go to.
+    """Rate of a wheel's height over the ground below it, or a height to go to.
+
+    The height is that of the wheel's lowest point over the ground under its centre, so that a step beside the
+    wheel does not count; at 0 it is the gap to whatever is nearest that goes to 0.
 
     Attributes:
         wheel: its name.
         rate: m/s, or None.
-        height: m, or None.
+        height: m over the ground below, or None.
         speed: m/s, at most on the way to the height.
         gain: share of the way that a step goes.
         weight: of a (m/s) squared.
@@ -57,9 +62,27 @@ class WheelLift:
             InputError: no wheel of that name.
         """
         which = at.index([self.wheel])
-        if self.rate is not None:
-            target = self.rate
+        if self.height == 0.0:
+            row, left = contact_rows(at, which, ("normal",)), -float(at.contacts[which[0], 0])
         else:
-            way = self.gain * (float(self.height or 0.0) - float(at.contacts[which[0], 0])) / dt
-            target = float(np.clip(way, -self.speed, self.speed))
-        return Aim(contact_rows(at, which, ("normal",)), np.array([target]), np.array([self.weight]))
+            row, left = height_row(at, which), (self.height or 0.0) - height(at, int(which[0]))
+        target = self.rate
+        if target is None:
+            target = min(max(self.gain * left / dt, -self.speed), self.speed)
+        return Aim(row, np.array([target]), np.array([self.weight]))
+
+
+def height(at: Instant, place: int) -> float:
+    """Of a wheel's lowest point over the ground under its centre [m]."""
+    (x, y, z), shapes = at.centers[place], at.bodies.packed
+    ring, tread = float(shapes.rings[place]), float(shapes.treads[place])
+    lowest = z - ring * math.sqrt(max(1.0 - float(at.axes[place, 2]) ** 2, 0.0)) - tread
+    return float(lowest - at.bodies.terrain.height(x, y))
+
+
+def height_row(at: Instant, which: Integers) -> Array:
+    """(k, nv) rate of `height` [m/s], but for what a turn of the wheel's axis adds."""
+    centers = at.centers[which]
+    slope = np.asarray(at.bodies.terrain.gradient(centers[:, 0], centers[:, 1])).reshape(-1, 2)
+    along = np.column_stack([-slope, np.ones(len(centers))])
+    return at.rows(at.bodies.packed.joints[which], centers, along)
