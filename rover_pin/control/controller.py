@@ -123,19 +123,19 @@ class Controller:
         return order
 
     def cycle(
-        self, q: Array, *, rates: Array | None = None, loads: Mapping[str, float] | None = None
+        self, where: Array | Instant, *, rates: Array | None = None, loads: Mapping[str, float] | None = None
     ) -> Cycle:
         """What to do for the next dt.
 
         Args:
-            q: (nv,) measured configuration.
+            where: (nv,) measured configuration, or the instant that was made of it.
             rates: (nv,) measured dq/dt, or None: a standstill between actions.
             loads: measured loads of wheels [N], or None.
         """
-        fault = self._fault(q, rates, loads)
+        fault = self._fault(where, rates, loads)
         if fault:
             return self._rest(self.supervisor.report(fault=fault))
-        at = self.inverse.at(np.asarray(q, dtype=np.float64))
+        at = self.inverse.at(where)
         order = self.supervisor.order
         if order.action is None or order.state in AT_REST:
             return self._rest(self.supervisor.report())
@@ -202,10 +202,10 @@ class Controller:
     def _rest(self, order: Order, action: str = "") -> Cycle:
         return Cycle(order, action, self._still, self.grip)
 
-    def _fault(self, q: Array, rates: Array | None, loads: Mapping[str, float] | None) -> str:
-        """What a sensor tells that cannot be."""
-        for word, values in (("place", q), ("rate", rates)):
-            if values is None:
+    def _fault(self, where: Array | Instant, rates: Array | None, loads: Mapping[str, float] | None) -> str:
+        """What a sensor tells that cannot be; an instant has been looked at when it was made."""
+        for word, values in (("place", where), ("rate", rates)):
+            if values is None or isinstance(values, Instant):
                 continue
             numbers = np.asarray(values, dtype=np.float64)
             if numbers.shape != self._still.shape:

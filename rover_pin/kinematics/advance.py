@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
-import pinocchio as pin
 
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
@@ -41,30 +40,34 @@ class Sliding:
 
     Args:
         at: the start.
+
+    Attributes:
+        slid: (s, 3) m, world: along the ground, since the start.
     """
 
     def __init__(self, at: Instant) -> None:
         self.bodies: Bodies = at.bodies
-        self._last = self._looked(at)
         self.slid = np.zeros((len(at.bodies.names), 3))
+        self._last = self._look(at)
+        self._standing: dict[tuple[str, ...], Array] = {}
 
     def step(self, at: Instant, lifted: tuple[str, ...] = ()) -> Array:
         """(s,) m: what each shape slid along the ground since the start; lifted ones add nothing."""
-        points, rotations, locals_ = self._looked(at)
-        old_points, old_rotations, old_locals = self._last
-        standing = [i for i, name in enumerate(self.bodies.names) if name not in lifted]
-        for i in standing:
-            mean = old_rotations[i] @ pin.exp3(0.5 * pin.log3(old_rotations[i].T @ rotations[i]))
-            moved = points[i] - old_points[i] - mean @ (locals_[i] - old_locals[i])
-            normal = at.contacts[i, 4:7]
-            self.slid[i] += moved - normal * float(normal @ moved)
-        self._last = points, rotations, locals_
+        if lifted not in self._standing:
+            stands = [name not in lifted for name in self.bodies.names]
+            self._standing[lifted] = np.array(stands, dtype=np.float64)[:, None]
+        points, rotations, on_body = self._look(at)
+        before, turned, was = self._last
+        moved = points - before - np.einsum("sij,sj->si", 0.5 * (turned + rotations), on_body - was)
+        normals = at.contacts[:, 4:7]
+        moved -= normals * np.einsum("sj,sj->s", normals, moved)[:, None]
+        self.slid += moved * self._standing[lifted]
+        self._last = points, rotations, on_body
         return np.asarray(np.linalg.norm(self.slid, axis=1))
 
-    def _looked(self, at: Instant) -> tuple[Array, Array, Array]:
-        points = at.contacts[:, 1:4].copy()
-        placed = at.placed
-        joints = self.bodies.rolling_joints.tolist()
-        rotations = np.array([placed[joint].rotation for joint in joints])
-        origins = np.array([placed[joint].translation for joint in joints])
-        return points, rotations, np.einsum("sji,sj->si", rotations, points - origins)
+    def _look(self, at: Instant) -> tuple[Array, Array, Array]:
+        """Places of contact (s, 3) m, orientations (s, 3, 3) of the bodies that touch, the places on them."""
+        points, placed = at.contacts[:, 1:4], at.placed
+        frames = np.array([placed[joint].homogeneous for joint in self.bodies.rolling_joints.tolist()])
+        rotations = frames[:, :3, :3]
+        return points, rotations, np.einsum("sji,sj->si", rotations, points - frames[:, :3, 3])

@@ -139,7 +139,7 @@ class _Simulation:
             if self.clock.now > self.setting.longest:
                 self.status, self.reason = "too long", f"longer than {self.setting.longest:g} s"
                 return
-            cycle = self.controller.cycle(self.at.q, loads=self.loads)
+            cycle = self.controller.cycle(self.at, loads=self.loads)
             changed = bool(cycle.action) and cycle.action != last
             if self._steps % self._between == 0 or changed:
                 self._sample(cycle.action or last or mode.name, cycle)

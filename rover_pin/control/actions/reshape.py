@@ -67,13 +67,13 @@ class Reshape(Action):
             that carry them; over the ground where it is `wheel`.
         hold: `drive` or `wheel`.
         forward: m/s of the root link meanwhile, or None where it goes where the braked wheels let it.
-        angle: rad, both rockers' to go to, on ground where a clearance means nothing; None where `clearance` is
-            the goal.
+        angle: rad, both rockers' to go to, on ground where a clearance means nothing; None where
+            `clearance` is the goal.
         label: what people read.
 
     Raises:
-        InputError: a clearance or speed that is not above 0, both goals or none, an unknown hold, wheels braked
-            while it drives, or neither.
+        InputError: a clearance or speed that is not above 0, both goals or none, an unknown hold, wheels
+            braked while it drives, or neither.
     """
 
     layout: Layout
