@@ -25,6 +25,7 @@ from rover_pin.control.threshold import Threshold
 from rover_pin.errors import InputError
 from rover_pin.kinematics.advance import Sliding, advance
 from rover_pin.kinematics.instant import Instant
+from rover_pin.numerics import Array
 from rover_pin.simulation.log import Log
 from rover_pin.simulation.run import Run
 from rover_pin.statics.settle import settle
@@ -33,6 +34,10 @@ if TYPE_CHECKING:
     from rover_pin.rover import Rover
     from rover_pin.statics.stance import Stance
     from rover_pin.terrain import Terrain
+
+
+STEADY = 0.05
+"""Share of its size by which a velocity changes from cycle to cycle where it goes on smoothly."""
 
 
 def nobody(_: Reminder) -> bool:
@@ -124,6 +129,7 @@ class _Simulation:
         self.loads: Mapping[str, float] | None = dict(start.loads)
         self.status, self.reason = str(State.DONE), ""
         self._steps = 0
+        self._before: Array = np.zeros(rover.model.nv)
         self._between = max(1, round(setting.every / setting.dt))
 
     def run(self, mode: Mode) -> None:
@@ -150,9 +156,11 @@ class _Simulation:
         self._sample(last or mode.name, None)
 
     def _advance(self, cycle: Cycle) -> None:
-        if np.any(cycle.velocity):
-            self.at = advance(self.at, cycle.velocity, self.setting.dt)
+        velocity = cycle.velocity
+        if np.any(velocity):
+            self.at = advance(self.at, _onward(velocity, self._before), self.setting.dt)
             self.sliding.step(self.at, cycle.grip.lifted)
+        self._before = velocity
         self._steps += 1
         self.clock.now = self._steps * self.setting.dt
 
@@ -161,6 +169,18 @@ class _Simulation:
         stance = set_down(self.at, grip)
         self.loads = dict(stance.loads) if stance.settled else None
         self.log.add(self.clock.now, self.at, action, grip, stance, cycle, self.sliding)
+
+
+def _onward(velocity: Array, before: Array) -> Array:
+    """The mean rate of a step whose rates go on changing as they did (Adams and Bashforth, second order).
+
+    Where a command sets in or ends the rates jump and stay what they are.
+    """
+    change = velocity - before
+    if float(np.max(np.abs(change))) > STEADY * float(np.max(np.abs(velocity))):
+        return velocity
+    onward: Array = velocity + 0.5 * change
+    return onward
 
 
 def set_down(at: Instant, grip: Grip) -> Stance:

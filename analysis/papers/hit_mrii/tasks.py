@@ -1,0 +1,177 @@
+"""The paper's tasks as scripts of modes: what is rolled, raised and lifted where.
+
+Distances and clearances are the paper's where its text has them. Where it has none (lengths of obstacles, how far
+the robot stops before them) they are ours, and a comment says so.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from rover_pin.analysis.papers.hit_mrii.ground import Box, ground
+from rover_pin.control.actions import Drive, Reshape
+from rover_pin.control.layout import Layout
+from rover_pin.control.modes import (
+    CHASSIS_LIFTING,
+    Mode,
+    Speeds,
+    chassis_lifting,
+    crabbing,
+    creeping,
+    rolling,
+    wheel_lifting,
+)
+from rover_pin.kinematics.steering import Twist
+from rover_pin.terrain import Terrain
+
+HOME, HIGH = 0.25, 0.485
+"""m: clearance at home, and that from which front wheels are lifted (ours: the CoM is to the rear there)."""
+
+LOW = 0.2
+"""m: clearance from which rear wheels are lifted (ours: the CoM is to the front there)."""
+
+LIFT = 0.18
+"""m over the ground: Tasks 6 and 7."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """One of the paper's tasks.
+
+    Attributes:
+        key: `3`, or `12 RF 100` where a task has several trials.
+        title: what is done.
+        modes: of the rover's sides and speeds.
+        terrain: what it is done on.
+        clearance: m, at the start.
+        x: m, of the root link at the start.
+    """
+
+    key: str
+    title: str
+    modes: Callable[[Layout, Speeds], list[Mode]]
+    terrain: Callable[[], Terrain] = field(default=Terrain.flat)
+    clearance: float = HOME
+    x: float = 0.0
+
+
+def task_1() -> Task:
+    """WRM: 25 mm/s for 153.82 s."""
+    return Task("1", "roll", lambda sides, speeds: [rolling(sides, speeds, 0.025 * 153.82)])
+
+
+def task_2() -> Task:
+    """WRM, WCM to the right, WRM, WCM to the left, WRM past two walls.
+
+    The paper prints the sums, 6422.75 mm ahead and 1363.75 mm across; thirds and halves are ours, and so are the
+    walls.
+    """
+    ahead, across = 6.42275 / 3, 1.36375 / 2
+    walls = (
+        Box((ahead + 1.3, ahead + 1.6), (0.15, 1.15), 0.3),
+        Box((2 * ahead + 1.3, 2 * ahead + 1.6), (-1.75, -0.85), 0.3),
+    )
+
+    def modes(sides: Layout, speeds: Speeds) -> list[Mode]:
+        right, left = (crabbing(sides, speeds, across, sign * math.pi / 2) for sign in (-1.0, 1.0))
+        roll = rolling(sides, speeds, ahead)
+        return [roll, right, roll, left, roll]
+
+    return Task("2", "crab around walls", modes, lambda: ground(walls, (-1.6, 8.4), (-2.2, 1.6), "two walls"))
+
+
+def task_3() -> Task:
+    """RCLM over piles of 300 and 450 mm: 250 to 330 to 480 to 250 mm of clearance."""
+    piles = (Box((1.1, 1.5), (-0.3, 0.3), 0.3), Box((2.7, 3.1), (-0.3, 0.3), 0.45))
+
+    def modes(sides: Layout, speeds: Speeds) -> list[Mode]:
+        return [
+            rolling(sides, speeds, 0.5),
+            chassis_lifting(sides, speeds, 0.33),
+            rolling(sides, speeds, 1.65),
+            chassis_lifting(sides, speeds, 0.48),
+            rolling(sides, speeds, 1.75),
+            chassis_lifting(sides, speeds, HOME),
+        ]
+
+    return Task("3", "raise over two piles", modes, lambda: ground(piles, (-1.6, 5.6), (-1.2, 1.2), "two piles"))
+
+
+CREEP = 0.1444
+"""m of lift in Tasks 4 and 5: what the paper's five errors and their 17.74 % come from."""
+
+
+def task_4() -> Task:
+    """RCM on level ground, five times."""
+    return Task("4", "creep", lambda sides, speeds: [creeping(sides, speeds, HOME, HOME + CREEP, 5)])
+
+
+def task_5() -> Task:
+    """WRM for 437.75 mm up 10 deg, then RCM four times; heights as in Task 4."""
+
+    def modes(sides: Layout, speeds: Speeds) -> list[Mode]:
+        return [rolling(sides, speeds, 0.43775), creeping(sides, speeds, HOME, HOME + CREEP, 4)]
+
+    return Task("5", "creep up 10 deg", modes, lambda: Terrain.slope(10.0))
+
+
+def task_6() -> Task:
+    """SWLM: the right wheels over a brick of 150 mm, one after the other.
+
+    The brick is 100 mm long (ours).
+    """
+    brick = Box((1.10, 1.20), (-0.9, -0.4), 0.15)
+
+    def modes(sides: Layout, speeds: Speeds) -> list[Mode]:
+        over = 0.56
+        return [
+            rolling(sides, speeds, 0.1),
+            chassis_lifting(sides, speeds, HIGH),
+            wheel_lifting(sides, speeds, ["RF"], LIFT, over),
+            chassis_lifting(sides, speeds, HOME),
+            rolling(sides, speeds, 0.2),
+            wheel_lifting(sides, speeds, ["RM"], LIFT, over),
+            chassis_lifting(sides, speeds, LOW),
+            rolling(sides, speeds, 0.2),
+            wheel_lifting(sides, speeds, ["RB"], LIFT, over),
+            chassis_lifting(sides, speeds, HOME),
+        ]
+
+    return Task("6", "right wheels over a brick", modes, lambda: ground((brick,), (-1.6, 4.4), (-1.2, 1.2), "a brick"))
+
+
+def task_10() -> Task:
+    """RCLM while it rolls at 15 mm/s: 250, 450, 150, 550, 250 mm, 900 mm of way at each of the first four (ours)."""
+
+    def modes(sides: Layout, speeds: Speeds) -> list[Mode]:
+        actions: list[Reshape | Drive] = []
+        for goal in (0.45, 0.15, 0.55, HOME):
+            actions.append(Drive(sides, Twist(forward=0.015), 0.15, label="roll"))
+            actions.append(Reshape(sides, goal, speeds.lift, forward=0.015, label=f"to {1e3 * goal:.0f} mm"))
+        return [Mode(CHASSIS_LIFTING, tuple(actions))]
+
+    return Task("10", "change height while it rolls", modes)
+
+
+def lifts() -> list[Task]:
+    """Tasks 12 and 13: wheels and pairs lifted and 900 mm rolled, from the clearances of Task 6 (ours)."""
+    found = []
+    for number, wheels, height, clearance in (
+        *(("12", ("RF",), height, HIGH) for height in (0.1, 0.15, 0.2)),
+        *(("12", ("LF", "RF"), height, HIGH) for height in (0.1, 0.15, 0.2)),
+        ("13", ("RM",), 0.2, HOME),
+        ("13", ("RB",), 0.2, LOW),
+        ("13", ("LM", "RM"), 0.2, HOME),
+        ("13", ("LB", "RB"), 0.2, LOW),
+    ):
+        name = f"{number} {'+'.join(wheels)} {1e3 * height:.0f}"
+
+        def modes(
+            sides: Layout, speeds: Speeds, wheels: tuple[str, ...] = wheels, height: float = height
+        ) -> list[Mode]:
+            return [wheel_lifting(sides, speeds, wheels, height, 0.9)]
+
+        found.append(Task(name, f"{' and '.join(wheels)} lifted", modes, clearance=clearance))
+    return found
