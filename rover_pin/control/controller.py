@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rover_pin.control.actions import Grip, Start
+from rover_pin.control.actions import CLOSE, Grip, Start
 from rover_pin.control.execution import Execution
 from rover_pin.control.layout import Layout
 from rover_pin.control.modes import Mode, refuse_start
@@ -28,6 +28,10 @@ from rover_pin.numerics import Array, frozen
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
     from rover_pin.terrain import Terrain
+
+
+STUCK = 5.0
+"""s without way after which an action is stuck: a wheel stands before a step that no row forbids."""
 
 
 @dataclass(frozen=True)
@@ -102,6 +106,7 @@ class Controller:
         self._execution: Execution | None = None
         self._doing: tuple[State, int] | None = None
         self._begun: dict[int, Execution] = {}
+        self._least, self._waited = math.inf, 0
 
     def begin(self, mode: Mode, q: Array) -> Order:
         """Start a mode from a measured configuration (nv,).
@@ -160,9 +165,22 @@ class Controller:
             order = self.supervisor.report(infeasible=solution.reason)
             return Cycle(order, name, self._still, execution.grip, watch.look(self._still), solution)
         look = watch.look(solution.velocity)
-        order = self.supervisor.report(crossed=look.crossed)
+        stuck = "" if look.crossed else self._stuck(execution, at)
+        order = self.supervisor.report(crossed=look.crossed, infeasible=stuck)
         velocity = solution.velocity if order.state in (State.RUNNING, State.ROLLING_BACK) else self._still
         return Cycle(order, name, velocity, execution.grip, look, solution)
+
+    def _stuck(self, execution: Execution, at: Instant) -> str:
+        """In words, where an action has made no way for a while though its programs are solved."""
+        left = execution.action.left(at, execution.start)
+        if left < self._least - 1e-2 * CLOSE:
+            self._least, self._waited = left, 0
+            return ""
+        self._waited += 1
+        if self._waited * self.dt < STUCK:
+            return ""
+        self._waited = 0
+        return f"{execution.action.name} makes no way any more, {left:.4g} is left"
 
     def _watch(
         self,
@@ -196,6 +214,7 @@ class Controller:
         if not undoing:
             self._begun[place] = self._execution
         self.grip = self._execution.grip
+        self._least, self._waited = math.inf, 0
         self._doing = order.state, place
         return ""
 

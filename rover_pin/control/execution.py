@@ -23,6 +23,10 @@ from rover_pin.kinematics.solution import Solution
 from rover_pin.numerics import Array
 from rover_pin.rover import Rover
 
+SLIP = 1e3
+"""Weight of side slip squared. Wheels scrub sideways where the ground or a lifted side makes the body roll; where
+it does not, and steering agrees, this is no different from a row that does not bend."""
+
 BEYOND = 1e-6
 """Share that a wanted rate may exceed a joint's speed by."""
 
@@ -48,8 +52,11 @@ class Execution:
         self.action.check(start.at, start)
         self.grip = self.action.grip(start)
         self._always = (*always(inverse.rover, self.grip), *self.action.limits(start))
-        self._standing = ContactKept(self.grip.lifted)
-        self._rolling = ContactKept(self.grip.lifted, directions=("normal", "roll"))
+        lifted = self.grip.lifted
+        self._contacts = (
+            ContactKept(lifted, directions=("normal", "roll")),
+            ContactKept(lifted, directions=("slip",), bend=SLIP),
+        )
         self._check_speeds()
 
     def command(self, at: Instant) -> Command:
@@ -58,7 +65,7 @@ class Execution:
 
     def solve(self, at: Instant, command: Command, watches: Sequence[Limit] = ()) -> Solution:
         """The rates of a cycle."""
-        limits = (*self._always, *self._contacts(command), *watches)
+        limits = (*self._always, *self._contacts, *watches)
         return self.inverse.solve(at, command.tasks, limits, dt=self.dt)
 
     def finished(self, at: Instant) -> bool:
@@ -74,17 +81,12 @@ class Execution:
         """The action that goes back."""
         return self.action.undone(self.start, now)
 
-    def _contacts(self, command: Command) -> tuple[Limit, ...]:
-        if command.slip is None:
-            return (self._standing,)
-        return self._rolling, ContactKept(self.grip.lifted, directions=("slip",), bend=command.slip)
-
     def _check_speeds(self) -> None:
         """The first cycle without speed limits: what it asks of every joint must be within its speed."""
         rover = self.inverse.rover
         command = self.command(self.start.at)
         free = [limit for limit in self._always if not isinstance(limit, SpeedLimits)]
-        limits = (*free, *self._contacts(command))
+        limits = (*free, *self._contacts)
         found = self.inverse.solve(self.start.at, command.tasks, limits, dt=self.dt)
         if not found.solved:
             return  # the first cycle will say why

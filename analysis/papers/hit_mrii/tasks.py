@@ -1,7 +1,7 @@
 """The paper's tasks as scripts of modes: what is rolled, raised and lifted where.
 
-Distances and clearances are the paper's where its text has them. Where it has none (lengths of obstacles, how far
-the robot stops before them) they are ours, and a comment says so.
+Distances and clearances are the paper's where its text has them. Where it has none (lengths of obstacles, how
+far the robot stops before them) they are ours, and a comment says so.
 """
 
 from __future__ import annotations
@@ -65,19 +65,20 @@ def task_1() -> Task:
 def task_2() -> Task:
     """WRM, WCM to the right, WRM, WCM to the left, WRM past two walls.
 
-    The paper prints the sums, 6422.75 mm ahead and 1363.75 mm across; thirds and halves are ours, and so are the
-    walls.
+    The paper prints the sums, 6422.75 mm ahead and 1363.75 mm across; how they are shared is ours, and so are
+    the walls.
     """
-    ahead, across = 6.42275 / 3, 1.36375 / 2
+    first, second, across = 1.8, 2.7, 1.36375 / 2
+    third = 6.42275 - first - second
     walls = (
-        Box((ahead + 1.3, ahead + 1.6), (0.15, 1.15), 0.3),
-        Box((2 * ahead + 1.3, 2 * ahead + 1.6), (-1.75, -0.85), 0.3),
+        Box((first + 1.1, first + 1.3), (0.15, 1.15), 0.3),
+        Box((first + second + 1.1, first + second + 1.3), (-1.75, -0.85), 0.3),
     )
 
     def modes(sides: Layout, speeds: Speeds) -> list[Mode]:
         right, left = (crabbing(sides, speeds, across, sign * math.pi / 2) for sign in (-1.0, 1.0))
-        roll = rolling(sides, speeds, ahead)
-        return [roll, right, roll, left, roll]
+        ahead = [rolling(sides, speeds, way) for way in (first, second, third)]
+        return [ahead[0], right, ahead[1], left, ahead[2]]
 
     return Task("2", "crab around walls", modes, lambda: ground(walls, (-1.6, 8.4), (-2.2, 1.6), "two walls"))
 
@@ -96,7 +97,9 @@ def task_3() -> Task:
             chassis_lifting(sides, speeds, HOME),
         ]
 
-    return Task("3", "raise over two piles", modes, lambda: ground(piles, (-1.6, 5.6), (-1.2, 1.2), "two piles"))
+    return Task(
+        "3", "raise over two piles", modes, lambda: ground(piles, (-1.6, 5.6), (-1.2, 1.2), "two piles")
+    )
 
 
 CREEP = 0.1444
@@ -120,30 +123,60 @@ def task_5() -> Task:
 def task_6() -> Task:
     """SWLM: the right wheels over a brick of 150 mm, one after the other.
 
-    The brick is 100 mm long (ours).
+    The brick is 80 mm long (ours): between front and middle wheel of a raised chassis there is room for no more.
     """
-    brick = Box((1.10, 1.20), (-0.9, -0.4), 0.15)
+    brick = Box((0.94, 1.02), (-0.9, -0.4), 0.15)
 
     def modes(sides: Layout, speeds: Speeds) -> list[Mode]:
-        over = 0.56
         return [
-            rolling(sides, speeds, 0.1),
+            rolling(sides, speeds, 0.08),
             chassis_lifting(sides, speeds, HIGH),
-            wheel_lifting(sides, speeds, ["RF"], LIFT, over),
+            wheel_lifting(sides, speeds, ["RF"], LIFT, 0.74),
             chassis_lifting(sides, speeds, HOME),
-            rolling(sides, speeds, 0.2),
-            wheel_lifting(sides, speeds, ["RM"], LIFT, over),
+            wheel_lifting(sides, speeds, ["RM"], LIFT, 0.5),
             chassis_lifting(sides, speeds, LOW),
-            rolling(sides, speeds, 0.2),
-            wheel_lifting(sides, speeds, ["RB"], LIFT, over),
+            rolling(sides, speeds, 0.28),
+            wheel_lifting(sides, speeds, ["RB"], LIFT, 0.5),
             chassis_lifting(sides, speeds, HOME),
         ]
 
-    return Task("6", "right wheels over a brick", modes, lambda: ground((brick,), (-1.6, 4.4), (-1.2, 1.2), "a brick"))
+    over = lambda: ground((brick,), (-1.7, 4.3), (-1.2, 1.2), "a brick")  # noqa: E731
+    return Task("6", "right wheels over a brick", modes, over, x=-0.1)
+
+
+STEP = 0.12
+"""m: a stair's height (ours; the paper prints none)."""
+
+
+def task_7() -> Task:
+    """DWLM: both front, both middle, both rear wheels onto a stair."""
+    edge = 0.96
+
+    def posture(sides: Layout, speeds: Speeds, degrees: float) -> Mode:
+        behind = tuple(wheel for side in sides.sides for wheel in side.wheels[1:])
+        angle = math.radians(degrees)
+        return Mode(CHASSIS_LIFTING, (Reshape(sides, None, speeds.lift, behind, angle=angle, label="rockers"),))
+
+    def modes(sides: Layout, speeds: Speeds) -> list[Mode]:
+        return [
+            rolling(sides, speeds, 0.08),
+            chassis_lifting(sides, speeds, HIGH),
+            wheel_lifting(sides, speeds, ["LF", "RF"], LIFT, 0.56),
+            posture(sides, speeds, 0.0),
+            rolling(sides, speeds, 0.1),
+            wheel_lifting(sides, speeds, ["LM", "RM"], LIFT, 0.42),
+            posture(sides, speeds, -7.6),
+            rolling(sides, speeds, 0.4),
+            wheel_lifting(sides, speeds, ["LB", "RB"], LIFT, 0.5),
+            posture(sides, speeds, 0.0),
+        ]
+
+    stair = Box((edge, 9.0), (-9.0, 9.0), STEP)
+    return Task("7", "pairs of wheels onto a stair", modes, lambda: ground((stair,), (-1.7, 4.3), (-1.2, 1.2), "a stair"), x=-0.1)
 
 
 def task_10() -> Task:
-    """RCLM while it rolls at 15 mm/s: 250, 450, 150, 550, 250 mm, 900 mm of way at each of the first four (ours)."""
+    """RCLM while it rolls at 15 mm/s: 250, 450, 150, 550, 250 mm of clearance."""
 
     def modes(sides: Layout, speeds: Speeds) -> list[Mode]:
         actions: list[Reshape | Drive] = []

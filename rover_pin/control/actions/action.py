@@ -60,12 +60,10 @@ class Command:
 
     Attributes:
         tasks: wanted.
-        slip: weight of side slip squared where it may bend, or None where wheels may not slip.
         nominal: rates of the base without reshaping: `forward`, `left` [m/s], `yaw` [rad/s].
     """
 
     tasks: tuple[Task, ...]
-    slip: float | None = None
     nominal: Mapping[str, float] = field(default_factory=_free)
 
 

@@ -15,11 +15,8 @@ from rover_pin.kinematics.steering import Twist, steering_for, steering_joints
 from rover_pin.kinematics.tasks import BaseTwist, Posture, Rates
 from rover_pin.numerics import Array
 
-SLIP = 10.0
-"""Weight of side slip squared against the base's motion squared, while the steering follows."""
-
 FOLLOWING = 100.0
-"""Weight of the steering's rates squared [(rad/s)^-2] against the base's."""
+"""Weight of the steering's rates squared [(rad/s)^-2] against the base's: below that of side slip."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +76,7 @@ class Drive(Action):
             return Command(tuple(wanted), nominal=nominal)
         angles = steering_for(at, self.twist, rates=self.rockers)
         wanted.append(Posture(angles, speed=math.inf, gain=1.0, weight=FOLLOWING, name="steering"))
-        return Command(tuple(wanted), slip=SLIP, nominal=nominal)
+        return Command(tuple(wanted), nominal=nominal)
 
     def left(self, at: Instant, start: Start) -> float:
         """m of the way."""

@@ -95,7 +95,7 @@ class LiftWheels(Action):
         ]
         hanging = self.grip(start).lifted
         tasks.append(Rates(dict.fromkeys(drives_of(at.rover, hanging), 0.0), name="hanging wheels"))
-        return Command(tuple(tasks), slip=SLIP)
+        return Command(tuple(tasks))
 
     def braked(self, hanging: tuple[str, ...]) -> str:
         """The wheel that stays in place: of a side that keeps its shape where there is one, in the middle."""
@@ -116,9 +116,6 @@ class LiftWheels(Action):
         was = 0.0 if stood else max(height(start.at, i) for i in start.at.index(self.wheels).tolist())
         return LiftWheels(self.layout, self.wheels, was, self.speed, f"undo {self.name}")
 
-
-SLIP = 1e3
-"""Weight of side slip squared: where a side is lifted the body rolls, and wheels scrub sideways a little."""
 
 LANDING = 0.5
 """Share of what is left that a landing wheel goes in a cycle: it meets the ground without force."""

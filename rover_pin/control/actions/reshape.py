@@ -12,12 +12,13 @@ from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
 from rover_pin.kinematics.limits import Held
 from rover_pin.kinematics.rolling import ground_rows
-from rover_pin.kinematics.rows import Box, Limit, Rows, Task, equations, number
+from rover_pin.kinematics.rows import Aim, Box, Limit, Rows, Task, equations, number
 from rover_pin.kinematics.tasks import BaseTwist, Clearance, Posture, Rates
 from rover_pin.kinematics.tasks.clearance import clearance
 
 BRAKED = 1e3
-"""Weight of a rate squared of brakes beside the first of a side, which already holds the rover."""
+"""Weight of a rate squared of brakes beside the first, which already holds the rover: on uneven ground all of
+them together would hold what the rockers have to move."""
 
 
 @dataclass(frozen=True)
@@ -53,6 +54,26 @@ class Standing:
         which = at.index(self.wheels)
         names = tuple(f"standing of {name}" for name in self.wheels)
         return equations(names, ground_rows(at, which), np.zeros(len(which)))
+
+
+@dataclass(frozen=True)
+class StandStill:
+    """The same as a task.
+
+    Attributes:
+        wheels: their names.
+        weight: of a (m/s) squared.
+        name: what people read.
+    """
+
+    wheels: tuple[str, ...]
+    weight: float
+    name: str = "standing wheels"
+
+    def aim(self, at: Instant, dt: float) -> Aim:
+        """A row a wheel."""
+        which = at.index(self.wheels)
+        return Aim(ground_rows(at, which), np.zeros(len(which)), np.full(len(which), self.weight))
 
 
 @dataclass(frozen=True)
@@ -104,24 +125,26 @@ class Reshape(Action):
         return self.label
 
     def limits(self, start: Start) -> tuple[Limit | Box, ...]:
-        """Rockers together; the first braked wheel of each side is held hard."""
+        """Rockers together; the first braked wheel is held hard."""
         moving = tuple(side.rocker for side in self.layout.sides)
         kept: tuple[Limit | Box, ...] = (Together(self.layout), *still(start, self.layout, moving))
         if not self.braked:
             return kept
-        first = self._first
+        first = self.braked[:1]
         held = Standing(first) if self.hold == "wheel" else Held(drives_of(start.at.rover, first))
         return (*kept, held)
 
     def command(self, at: Instant, start: Start, dt: float) -> Command:
-        """The clearance; other braked wheels turn no more than uneven ground makes them."""
+        """The clearance; other braked wheels turn no more than the ground makes them."""
         tasks: list[Task] = [self._goal(at)]
         if self.forward is not None:
             tasks.append(BaseTwist(forward=self.forward, yaw=0.0))
             return Command(tuple(tasks), nominal={"forward": self.forward})
-        others = tuple(wheel for wheel in self.braked if wheel not in self._first)
+        others = self.braked[1:]
         if others and self.hold == "drive":
             tasks.append(Rates(dict.fromkeys(drives_of(at.rover, others), 0.0), BRAKED, "brakes"))
+        elif others:
+            tasks.append(StandStill(others, BRAKED))
         return Command(tuple(tasks))
 
     def _goal(self, at: Instant) -> Task:
@@ -130,10 +153,6 @@ class Reshape(Action):
         rockers = dict.fromkeys((side.rocker for side in self.layout.sides), float(self.angle or 0.0))
         pace = self.speed / (0.5 * at.rover.wheel_span)  # a rocker is about as long as half the wheels' span
         return Posture(rockers, speed=pace, gain=1.0, weight=10.0, name="rockers")
-
-    @property
-    def _first(self) -> tuple[str, ...]:
-        return tuple(next(w for w in side.wheels if w in self.braked) for side in self.layout.sides)
 
     def left(self, at: Instant, start: Start) -> float:
         """m of clearance, or rad of the rockers."""
