@@ -16,6 +16,11 @@ if TYPE_CHECKING:
 KEPT = 1e-6
 """Share of what a rocker's turning does to a row that may be left over before the rocker counts as stuck."""
 
+STEEP = 1e6
+"""Rates per rate of a rocker beyond which the rows count as singular."""
+
+State = tuple[tuple[str, ...], tuple[str, ...]]
+
 
 class Reshaping:
     """d(d_fm)/dw of each side, from Jacobians.
@@ -27,8 +32,10 @@ class Reshaping:
 
     def __init__(self, stations: Stations) -> None:
         self.stations = stations
-        self._columns: dict[tuple[str, ...], Integers] = {}
-        self._latest: tuple[Instant, tuple[str, ...], tuple[str, ...], Array] | None = None
+        rows = [coupling.row for coupling in stations.rover.couplings]
+        self._couplings = np.array(rows).reshape(-1, stations.rover.model.nv)
+        self._chosen: dict[State, tuple[Integers, Integers]] = {}
+        self._latest: tuple[Instant, State, Array] | None = None
 
     def rates(self, now: Now) -> Array:
         """(2,) m per rad (or m) of the rocker, left and right; 0 of a rocker that the wheels do not let turn.
@@ -36,32 +43,34 @@ class Reshaping:
         Raises:
             InputError: a lifted wheel that the rover does not have.
         """
-        kept = self._latest
-        if kept is None or kept[0] is not now.at or kept[1:3] != (now.lifted, now.locked):
-            kept = self._latest = (now.at, now.lifted, now.locked, self._work_out(now))
-        return kept[3]
+        state = (now.lifted, now.locked)
+        if self._latest is None or self._latest[0] is not now.at or self._latest[1] != state:
+            self._latest = now.at, state, self._work_out(now, state)
+        return self._latest[2]
 
-    def _work_out(self, now: Now) -> Array:
-        if now.locked not in self._columns:
-            self._columns[now.locked] = self._free(now)
-        rows, free = self._rows(now), self._columns[now.locked]
-        rockers = self.stations.rockers
+    def _work_out(self, now: Now, state: State) -> Array:
+        if state not in self._chosen:
+            self._chosen[state] = self._standing(now), self._free(now)
+        stands, free = self._chosen[state]
+        rows, rockers = self._rows(now.at, stands), self.stations.rockers
         turning = rows[:, rockers]
-        found = np.linalg.lstsq(rows[:, free], -turning, rcond=1e-9)[0]
+        found = _least(rows[:, free], -turning)
+        missed = np.abs(rows[:, free] @ found + turning).max(axis=0)
         apart = self.stations.at(now.at).apart_rows
         rates: Array = (apart[:, free] @ found).diagonal() + apart[[0, 1], rockers]
-        missed = np.abs(rows[:, free] @ found + turning).max(axis=0)
         return np.where(missed > KEPT * np.abs(turning).max(axis=0), 0.0, rates)
 
-    def _rows(self, now: Now) -> Array:
+    def _rows(self, at: Instant, stands: Integers) -> Array:
         """Of gaps of standing wheels, couplings, loops."""
-        at = now.at
-        away = set(at.index(now.lifted).tolist()) if now.lifted else set()
-        stands = np.array([w for w in self.stations.wheels.ravel().tolist() if w not in away], dtype=np.int64)
-        gaps = at.rows(at.bodies.packed.joints[stands], at.contacts[stands, 1:4], at.contacts[stands, 4:7])
-        rows = [gaps, *(coupling.row[None, :] for coupling in at.rover.couplings)]
-        rows += [loop.jacobian(at.mechanism) for loop in at.rover.loops]
-        return np.vstack(rows)
+        touch = at.contacts[stands]
+        gaps = at.rows(at.bodies.packed.joints[stands], touch[:, 1:4], touch[:, 4:7])
+        loops = [loop.jacobian(at.mechanism) for loop in at.rover.loops]
+        return np.concatenate([gaps, self._couplings, *loops])
+
+    def _standing(self, now: Now) -> Integers:
+        """Places of the sides' wheels that are not lifted."""
+        away = now.at.index(now.lifted).tolist()
+        return np.array([w for w in self.stations.wheels.ravel().tolist() if w not in away], dtype=np.int64)
 
     def _free(self, now: Now) -> Integers:
         """Columns of height, pitch, roll and of passive joints that no clutch holds."""
@@ -69,3 +78,16 @@ class Reshaping:
         held = {*rover.actuated, *now.locked, *rover.dof_names[:2], rover.dof_names[3]}
         held |= {wheel.drive for wheel in rover.wheels if wheel.drive is not None}
         return np.array([i for i, name in enumerate(rover.dof_names) if name not in held], dtype=np.int64)
+
+
+def _least(matrix: Array, wanted: Array) -> Array:
+    """The x of matrix x = wanted, of the least squares where there is none, the least where there are many."""
+    if matrix.shape[0] == matrix.shape[1]:  # a quarter of the time, and what rovers have with a bogie a side
+        try:
+            found: Array = np.linalg.solve(matrix, wanted)
+        except np.linalg.LinAlgError:
+            pass
+        else:
+            if float(np.abs(found).max()) < STEEP:
+                return found
+    return np.linalg.lstsq(matrix, wanted, rcond=1e-9)[0]
