@@ -24,8 +24,8 @@ from rover_pin.numerics import Array
 from rover_pin.rover import Rover
 
 SLIP = 1e3
-"""Weight of side slip squared. Wheels scrub sideways where the ground or a lifted side makes the body roll; where
-it does not, and steering agrees, this is no different from a row that does not bend."""
+"""Weight of side slip squared. Wheels scrub sideways where the ground or a lifted side makes the body roll;
+where it does not, and steering agrees, this is no different from a row that does not bend."""
 
 BEYOND = 1e-6
 """Share that a wanted rate may exceed a joint's speed by."""

@@ -15,6 +15,7 @@ import numpy as np
 from rover_pin.errors import InputError, MechanismError, nearest
 from rover_pin.kinematics.instant import Instant
 from rover_pin.kinematics.limits import Clutch, ContactKept, CouplingsKept, LoopsClosed
+from rover_pin.kinematics.rolling import DIRECTIONS
 from rover_pin.kinematics.rows import Limit, number
 from rover_pin.kinematics.tasks.base_twist import ANGULAR, LINEAR, twist_row
 from rover_pin.kinematics.tasks.clearance import clearance_row
@@ -42,9 +43,12 @@ class Motion:
 
 
 def structure(
-    at: Instant, lifted: Sequence[str] = (), clutches: Mapping[str, float] | None = None
+    at: Instant,
+    lifted: Sequence[str] = (),
+    clutches: Mapping[str, float] | None = None,
+    directions: Sequence[str] = DIRECTIONS,
 ) -> tuple[tuple[str, ...], Array]:
-    """Names (m,) and rows (m, nv) of what holds: couplings, loops, clutches, contacts without sliding.
+    """Names (m,) and rows (m, nv) of what holds: couplings, loops, clutches, contacts in `directions`.
 
     Raises:
         InputError: a wheel or clutch that the rover does not have.
@@ -53,7 +57,7 @@ def structure(
         CouplingsKept(),
         LoopsClosed(),
         Clutch(dict(clutches or {})),
-        ContactKept(tuple(lifted)),
+        ContactKept(tuple(lifted), tuple(directions)),
     ]
     blocks = [limit.rows(at, 1.0) for limit in limits]
     names = tuple(name for block in blocks for name in block.names)
@@ -66,6 +70,7 @@ def complete(
     *,
     lifted: Sequence[str] = (),
     clutches: Mapping[str, float] | None = None,
+    directions: Sequence[str] = DIRECTIONS,
 ) -> Motion:
     """The velocity that has the known rates, and slides least where they do not agree.
 
@@ -75,12 +80,13 @@ def complete(
             root link along its heading, `clearance` of the belly [m/s], `yaw`, `pitch`, `roll` [rad/s].
         lifted: wheels that do not stand.
         clutches: passive joints that are held, at their values.
+        directions: of the contacts' rows that count; `normal` alone lets wheels slide.
 
     Raises:
         InputError: an unknown name, or a rate that is no finite number.
         MechanismError: known rates that contradict one another by themselves.
     """
-    names, rows = structure(at, lifted, clutches)
+    names, rows = structure(at, lifted, clutches, directions)
     told, sides = _known_rows(at, known)
     held, rest = _null(told, sides)
     undetermined: tuple[str, ...] = ()

@@ -7,13 +7,14 @@ motion: the direction is that of the velocity of the place where the wheel touch
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
+from rover_pin.kinematics.model import complete
 from rover_pin.kinematics.rolling import contact_rows
 from rover_pin.kinematics.rows import number
 from rover_pin.numerics import Array, frozen
@@ -104,14 +105,12 @@ def steering_for(at: Instant, twist: Twist, *, rates: Mapping[str, float] | None
     Raises:
         InputError: a wheel that cannot be steered to where it has to go, named with the angle asked for.
     """
-    velocity = twist.velocity(at)
-    for name, value in (rates or {}).items():
-        velocity[at.rover.column[name]] = number(name, value)
+    carried = _carrying(at, twist, rates or {})
     joints = steering_joints(at)
     angles = {joint: float(at.q[at.rover.column[joint]]) for joint in joints.values()}
     tried = at
     for _ in range(REFINEMENTS):
-        turns = _turns(tried, joints, velocity)
+        turns = _turns(tried, joints, carried(tried))
         for wheel, joint in joints.items():
             angles[joint] = _nearest(tried, wheel, joint, angles[joint], turns[wheel])
         if max((abs(math.remainder(turn, math.pi)) for turn in turns.values()), default=0.0) < EXACT:
@@ -120,6 +119,16 @@ def steering_for(at: Instant, twist: Twist, *, rates: Mapping[str, float] | None
         q[[at.rover.column[joint] for joint in angles]] = list(angles.values())
         tried = at.bodies.at(q)
     return angles
+
+
+def _carrying(at: Instant, twist: Twist, rates: Mapping[str, float]) -> Callable[[Instant], Array]:
+    """What carries the wheels, (nv,): the base alone, or with what moving rockers bring along."""
+    if not rates:
+        velocity = twist.velocity(at)
+        return lambda tried: velocity
+    still = {name: 0.0 for name in at.rover.actuated if name not in rates}
+    known = {**still, **rates, "forward": twist.forward, "left": twist.left, "yaw": twist.yaw}
+    return lambda tried: complete(tried, known, directions=("normal",)).velocity
 
 
 def _turns(at: Instant, joints: Mapping[str, str], velocity: Array) -> dict[str, float]:

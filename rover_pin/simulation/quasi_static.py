@@ -36,6 +36,9 @@ if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
 
 
+ELSEWHERE = 1e-3
+"""m: a wheel that the statics have this far from where the motion has it."""
+
 STEADY = 0.05
 """Share of its size by which a velocity changes from cycle to cycle where it goes on smoothly."""
 
@@ -169,6 +172,21 @@ class _Simulation:
         stance = set_down(self.at, grip)
         self.loads = dict(stance.loads) if stance.settled else None
         self.log.add(self.clock.now, self.at, action, grip, stance, cycle, self.sliding)
+        fault = self._unlike(stance, grip)
+        if fault:
+            self.supervisor.report(fault=fault)
+
+    def _unlike(self, stance: Stance, grip: Grip) -> str:
+        """In words, where the statics do not have the rover stand as the motion has it."""
+        if not stance.settled:
+            return f"does not stand: {stance.status}, {stance.reason}"
+        for name, gap in stance.gaps.items():
+            if (gap > ELSEWHERE) and name not in grip.lifted:
+                return f"{name} would leave the ground by {1e3 * gap:.2g} mm: it would have to be held down"
+        for name in grip.lifted:
+            if stance.loads[name] > 0.0 and float(self.at.contacts[self.at.index([name])[0], 0]) > ELSEWHERE:
+                return f"{name} would not leave the ground and carries {stance.loads[name]:.3g} N"
+        return ""
 
 
 def _onward(velocity: Array, before: Array) -> Array:

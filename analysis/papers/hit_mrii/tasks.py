@@ -9,12 +9,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 
 from rover_pin.analysis.papers.hit_mrii.ground import Box, ground
-from rover_pin.control.actions import Drive, Reshape
+from rover_pin.control.actions import Drive, Reshape, SteerToward
 from rover_pin.control.layout import Layout
 from rover_pin.control.modes import (
     CHASSIS_LIFTING,
+    ROLLING,
     Mode,
     Speeds,
     chassis_lifting,
@@ -80,7 +82,9 @@ def task_2() -> Task:
         ahead = [rolling(sides, speeds, way) for way in (first, second, third)]
         return [ahead[0], right, ahead[1], left, ahead[2]]
 
-    return Task("2", "crab around walls", modes, lambda: ground(walls, (-1.6, 8.4), (-2.2, 1.6), "two walls"))
+    return Task(
+        "2", "crab around walls", modes, partial(ground, walls, (-1.6, 8.4), (-2.2, 1.6), "two walls")
+    )
 
 
 def task_3() -> Task:
@@ -123,7 +127,7 @@ def task_5() -> Task:
 def task_6() -> Task:
     """SWLM: the right wheels over a brick of 150 mm, one after the other.
 
-    The brick is 80 mm long (ours): between front and middle wheel of a raised chassis there is room for no more.
+    The brick is 80 mm long (ours): between front and middle wheel of a raised chassis there is little room.
     """
     brick = Box((0.94, 1.02), (-0.9, -0.4), 0.15)
 
@@ -140,7 +144,7 @@ def task_6() -> Task:
             chassis_lifting(sides, speeds, HOME),
         ]
 
-    over = lambda: ground((brick,), (-1.7, 4.3), (-1.2, 1.2), "a brick")  # noqa: E731
+    over = partial(ground, (brick,), (-1.7, 4.3), (-1.2, 1.2), "a brick")
     return Task("6", "right wheels over a brick", modes, over, x=-0.1)
 
 
@@ -149,13 +153,19 @@ STEP = 0.12
 
 
 def task_7() -> Task:
-    """DWLM: both front, both middle, both rear wheels onto a stair."""
+    """DWLM: both front, both middle, both rear wheels onto a stair.
+
+    The rear pair cannot be lifted there: whatever the rockers' angle, the centre of mass is then behind the
+    middle wheels, and the front pair would have to be held down.
+    """
     edge = 0.96
 
     def posture(sides: Layout, speeds: Speeds, degrees: float) -> Mode:
         behind = tuple(wheel for side in sides.sides for wheel in side.wheels[1:])
         angle = math.radians(degrees)
-        return Mode(CHASSIS_LIFTING, (Reshape(sides, None, speeds.lift, behind, angle=angle, label="rockers"),))
+        return Mode(
+            CHASSIS_LIFTING, (Reshape(sides, None, speeds.lift, behind, angle=angle, label="rockers"),)
+        )
 
     def modes(sides: Layout, speeds: Speeds) -> list[Mode]:
         return [
@@ -172,7 +182,8 @@ def task_7() -> Task:
         ]
 
     stair = Box((edge, 9.0), (-9.0, 9.0), STEP)
-    return Task("7", "pairs of wheels onto a stair", modes, lambda: ground((stair,), (-1.7, 4.3), (-1.2, 1.2), "a stair"), x=-0.1)
+    up = partial(ground, (stair,), (-1.7, 4.3), (-1.2, 1.2), "a stair")
+    return Task("7", "pairs of wheels onto a stair", modes, up, x=-0.1)
 
 
 def task_10() -> Task:
@@ -186,6 +197,89 @@ def task_10() -> Task:
         return [Mode(CHASSIS_LIFTING, tuple(actions))]
 
     return Task("10", "change height while it rolls", modes)
+
+
+ROCK = (0.15, 0.55, 0.19)
+"""m: length, width and height of Task 14's obstacle."""
+
+MARGIN = 0.3
+"""m kept around it."""
+
+SLOW = 0.015
+"""m/s: Task 14."""
+
+
+AROUND = 1.1
+"""m to the side, on which wheels pass the obstacle: half of both widths and 100 mm (ours)."""
+
+
+def task_14() -> list[Task]:
+    """Around and over one obstacle: WRM, WCM, RCLM, SWLM.
+
+    The paper keeps the robot's centre 300 mm off the obstacle, which leaves the wheels on it; ours pass it.
+    On arcs the robot starts 1.2 m before the obstacle (ours): from 300 mm it could not turn away.
+    """
+    length = 1.85  # over the wheels
+    small = ((-1.7, 6.0), (-1.4, 2.6))
+
+    def rock(before: float, y: float = -0.5 * ROCK[1]) -> partial[Terrain]:
+        x = 0.5 * length + before
+        return partial(ground, (Box((x, x + ROCK[0]), (y, y + ROCK[1]), ROCK[2]),), *small, "a rock")
+
+    def arcs(sides: Layout, speeds: Speeds) -> list[Mode]:
+        radius, turn = 1.3, math.acos(1.0 - AROUND / 2.6)
+        slow = Speeds(SLOW, speeds.lift, speeds.steer)
+        out = [rolling(sides, slow, radius * turn, sign / radius) for sign in (1.0, -1.0)]
+        return [*out, rolling(sides, slow, 0.75), *reversed(out)]
+
+    def crab(sides: Layout, speeds: Speeds) -> list[Mode]:
+        slow = Speeds(SLOW, speeds.lift, speeds.steer)
+        aside = [crabbing(sides, slow, AROUND, sign * math.pi / 2) for sign in (1.0, -1.0)]
+        return [aside[0], rolling(sides, slow, 2 * MARGIN + ROCK[0] + length), aside[1]]
+
+    def raised(sides: Layout, speeds: Speeds) -> list[Mode]:
+        slow = Speeds(SLOW, speeds.lift, speeds.steer)
+        up, down = (chassis_lifting(sides, slow, goal) for goal in (HOME + 0.112, HOME))
+        return [up, rolling(sides, slow, 2 * MARGIN + ROCK[0] + length), down]
+
+    def lifted(sides: Layout, speeds: Speeds) -> list[Mode]:
+        slow = Speeds(SLOW, speeds.lift, speeds.steer)
+        return [
+            chassis_lifting(sides, slow, HIGH),
+            wheel_lifting(sides, slow, ["RF"], 0.22, 0.8),
+            chassis_lifting(sides, slow, HOME),
+            rolling(sides, slow, -0.1),
+            wheel_lifting(sides, slow, ["RM"], 0.22, 0.65),
+            chassis_lifting(sides, slow, LOW),
+            rolling(sides, slow, 0.2),
+            wheel_lifting(sides, slow, ["RB"], 0.21, 0.6),
+            chassis_lifting(sides, slow, HOME),
+        ]
+
+    return [
+        Task("14 WRM", "around a rock on arcs", arcs, rock(1.2)),
+        Task("14 WCM", "around a rock crabbing", crab, rock(MARGIN)),
+        Task("14 RCLM", "over a rock, raised", raised, rock(MARGIN)),
+        Task("14 SWLM", "over a rock wheel by wheel", lifted, rock(-0.062, -0.927), x=-0.12),
+    ]
+
+
+def task_15() -> list[Task]:
+    """Steering at two yaw rates while the chassis is lowered from 450 mm and the wheelbase grows.
+
+    The radius of 1.5 m and the rockers' rate are ours.
+    """
+    found = []
+    for rate in (0.02, 0.03):
+
+        def modes(sides: Layout, speeds: Speeds, rate: float = rate) -> list[Mode]:
+            twist = Twist.about(0.0, 1.5, rate)
+            rockers = dict.fromkeys((side.rocker for side in sides.sides), -0.009)
+            turn = Drive(sides, twist, 60.0 * 1.5 * rate, True, rockers, "steer and lower")
+            return [Mode(ROLLING, (SteerToward(sides, twist, speeds.steer, rates=rockers), turn))]
+
+        found.append(Task(f"15 {rate:g}", f"steer at {rate:g} rad/s and lower", modes, clearance=0.45))
+    return found
 
 
 def lifts() -> list[Task]:

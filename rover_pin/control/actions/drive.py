@@ -15,6 +15,9 @@ from rover_pin.kinematics.steering import Twist, steering_for, steering_joints
 from rover_pin.kinematics.tasks import BaseTwist, Posture, Rates
 from rover_pin.numerics import Array
 
+FAST = 10.0
+"""rad/s: more than any steering; its own speed limit holds."""
+
 FOLLOWING = 100.0
 """Weight of the steering's rates squared [(rad/s)^-2] against the base's: below that of side slip."""
 
@@ -75,7 +78,7 @@ class Drive(Action):
         if not self.follows:
             return Command(tuple(wanted), nominal=nominal)
         angles = steering_for(at, self.twist, rates=self.rockers)
-        wanted.append(Posture(angles, speed=math.inf, gain=1.0, weight=FOLLOWING, name="steering"))
+        wanted.append(Posture(angles, speed=FAST, gain=1.0, weight=FOLLOWING, name="steering"))
         return Command(tuple(wanted), nominal=nominal)
 
     def left(self, at: Instant, start: Start) -> float:

@@ -13,6 +13,10 @@ from rover_pin.kinematics.rows import Box, Limit, columns, number
 from rover_pin.kinematics.steering import Twist, steering_for, steering_joints
 from rover_pin.kinematics.tasks import BaseTwist, Posture
 
+STAY = 1e5
+"""Weight of the base's motion squared while wheels turn: above that of side slip, or leaning steering axes
+would walk it away."""
+
 
 @dataclass(frozen=True)
 class SteerToward(Action):
@@ -23,12 +27,14 @@ class SteerToward(Action):
         twist: of the root link; None turns all steering to 0.
         speed: rad/s, at most.
         label: what people read.
+        rates: of rockers that will move meanwhile [rad/s].
     """
 
     layout: Layout
     twist: Twist | None
     speed: float = 0.1
     label: str = "turn the wheels"
+    rates: Mapping[str, float] | None = None
 
     @property
     def name(self) -> str:
@@ -41,8 +47,10 @@ class SteerToward(Action):
         Raises:
             InputError: a wheel that cannot be steered to where it has to go.
         """
-        joints = steering_joints(start.at).values()
-        angles = dict.fromkeys(joints, 0.0) if self.twist is None else steering_for(start.at, self.twist)
+        if self.twist is None:
+            angles = dict.fromkeys(steering_joints(start.at).values(), 0.0)
+        else:
+            angles = steering_for(start.at, self.twist, rates=self.rates)
         return Steer(self.layout, angles, self.speed, self.label)
 
     def command(self, at: Instant, start: Start, dt: float) -> Command:
@@ -101,7 +109,7 @@ class Steer(Action):
 
     def command(self, at: Instant, start: Start, dt: float) -> Command:
         """The angles; leaning steering axes carry the base a little, which it resists."""
-        still_there = BaseTwist(forward=0.0, left=0.0, yaw=0.0)
+        still_there = BaseTwist(forward=0.0, left=0.0, yaw=0.0, weight=STAY)
         wanted = Posture(self.angles, speed=self.speed, gain=1.0, name="steering")
         return Command((wanted, still_there))
 
