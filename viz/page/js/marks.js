@@ -103,24 +103,27 @@ export class Marks {
     this.solid = new Buffers(view.THREE, parent, 0.95);
   }
 
-  /** Draw a case's marks; returns labels for the loads. `limiting`: words, the first that is an edge counts. */
-  draw({ contacts, com, limiting, span, groundHeight }) {
+  /** Draw a case's marks; returns labels for the loads. `limiting`: words, the first that is an edge counts.
+   * `heaviest`: the load whose arrow is longest; this case's where it is 0. `apart`: share of it by which the
+   * lightest wheel must be lighter to be marked. */
+  draw({ contacts, com, limiting, span, groundHeight, heaviest = 0, apart = 0 }) {
     const { solid, area } = this;
     solid.begin();
     area.begin();
     const bearing = contacts.filter((contact) => contact[4] > 0);
-    const most = Math.max(...bearing.map((contact) => contact[4]), 1e-9);
+    const most = heaviest || Math.max(...bearing.map((contact) => contact[4]), 1e-9);
     const totals = new Map();
     for (const [name, , , , load] of contacts) totals.set(name, (totals.get(name) ?? 0) + (load || 0));
     const least = Math.min(...totals.values());
-    this.lightest = [...totals].find(([, load]) => load === least)?.[0] ?? null;
+    const told = Math.max(...totals.values()) - least >= apart * most;
+    this.lightest = (told && [...totals].find(([, load]) => load === least)?.[0]) || null;
     this.polygon(bearing, com, limiting, span);
     const labels = [];
     for (const [name, x, y, z, load] of bearing) {
       const tall = (0.4 * span * load) / most;
       const light = name === this.lightest;
       solid.arrow([x, y, z], tall, 0.0095 * span, light ? LIMIT : LOAD);
-      labels.push({ at: [x, y, z + tall], text: `${load < 10 ? load.toFixed(2) : Math.round(load)} N`, light });
+      labels.push({ name, at: [x, y, z + tall], text: `${load < 10 ? load.toFixed(2) : Math.round(load)} N`, light });
     }
     const foot = [com[0], com[1], groundHeight];
     solid.ball(com, 0.022 * span, COM);
