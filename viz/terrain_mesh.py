@@ -66,36 +66,27 @@ def ground_surface(terrain: Terrain, x: float, y: float, span: float) -> tuple[S
     H = np.asarray(terrain.height(X, Y), dtype=np.float64)
     near = H[(np.abs(X - x) < 2 * span) & (np.abs(Y - y) < 2 * span)]
     step = nice_step(float(np.ptp(near)))
-    shades = tones(H, steepness_of(terrain, X, Y), step, pitch_of(xs, ys))
+    colours = _shades(H, _steepness(terrain, X, Y), step, _pitch(xs, ys))
     rows, columns = H.shape
     i, j = np.meshgrid(np.arange(rows - 1), np.arange(columns - 1), indexing="ij")
     a = (i * columns + j).ravel()
     faces = np.concatenate(
         [np.stack([a, a + 1, a + columns], 1), np.stack([a + 1, a + columns + 1, a + columns], 1)]
     )
-    colours = (shades[..., None] * np.array(SAND)).reshape(-1, 3)
-    return Surface(np.stack([X, Y, H], axis=-1).reshape(-1, 3), faces, colours), step
+    return Surface(np.stack([X, Y, H], axis=-1).reshape(-1, 3), faces, colours.reshape(-1, 3)), step
 
 
-def steepness_of(terrain: Terrain, X: Array, Y: Array) -> Array:
-    """Rise over run, (rows, columns)."""
+def _steepness(terrain: Terrain, X: Array, Y: Array) -> Array:
     return np.asarray(np.linalg.norm(terrain.gradient(X, Y), axis=-1), dtype=np.float64)
 
 
-def pitch_of(xs: Array, ys: Array) -> Array:
+def _pitch(xs: Array, ys: Array) -> Array:
     """Largest distance to the next vertex, (rows, columns)."""
     return np.asarray(np.maximum.outer(np.gradient(ys), np.gradient(xs)), dtype=np.float64)
 
 
-def tones(H: Array, steepness: Array, step: float, pitch: Array) -> Array:
-    """Factors on sand, (rows, columns): a little lighter uphill, darker on contours, unless they would merge.
-
-    Args:
-        H: heights, m.
-        steepness: rise over run.
-        step: between contours, m; 0 for none.
-        pitch: distance to the next vertex, m.
-    """
+def _shades(H: Array, steepness: Array, step: float, pitch: Array) -> Array:
+    """Sand, a little lighter uphill, darker on contours; none where they would smear or merge."""
     low, reach = float(H.min()), max(float(np.ptp(H)), 1e-9)
     tone = 0.92 + 0.12 * (H - low) / reach if step else np.full(H.shape, 1.0)
     if step:
@@ -106,4 +97,4 @@ def tones(H: Array, steepness: Array, step: float, pitch: Array) -> Array:
         )
         fade *= np.clip(steepness / 2e-3, 0.0, 1.0)  # a level place at a contour's height is no line
         tone = tone * (1 - 0.22 * fade * np.clip(1.1 - away / pitch, 0.0, 1.0))
-    return np.asarray(tone, dtype=np.float64)
+    return np.asarray(tone[..., None] * np.array(SAND), dtype=np.float64)

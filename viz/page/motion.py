@@ -15,7 +15,7 @@ from rover_pin.viz.page.curves import PANELS, packed_curves
 from rover_pin.viz.page.pack import Pack
 from rover_pin.viz.page.robots import robot
 from rover_pin.viz.page.thin import Indices, evenly, held
-from rover_pin.viz.page.path_ground import TONE, path_ground
+from rover_pin.viz.page.path_ground import path_ground
 from rover_pin.viz.scene import span_of
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def motion_pack(runs: Mapping[str, Run], title: str) -> Pack:
         paths = [np.asarray(run.configuration) for run in logs if ground_of[id(run)] == k]
         path = np.concatenate(paths)
         about, lattice = path_ground(first.terrain, path[:, 0], path[:, 1], span_of(first.rover))
-        fields.append({**about, "tone": TONE})
+        fields.append(about)
         segments.update({f"ground/{k}/{name}": data for name, data in lattice.items()})
     told = []
     for k, (name, run) in enumerate(runs.items()):

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rover_pin.viz.terrain_mesh import nice_step, pitch_of, steepness_of, tones, window
+from rover_pin.viz.terrain_mesh import nice_step, window
 
 if TYPE_CHECKING:
     from rover_pin.numerics import Array
@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 
 ROOM = 1.3
 """Wheel spans of close mesh around the path."""
+
+WIDE = 3.0
+"""Times as much ground as a stance has, where the terrain has no end."""
 
 MOST = 90_000
 """Vertices of the close mesh."""
@@ -35,12 +38,12 @@ def path_ground(terrain: Terrain, x: Array, y: Array, span: float) -> tuple[dict
         span: wheel span, m.
 
     Returns:
-        What the page needs to read it (`nx, ny, contour, grid`, the last the step of drawn lines, m), and per
+        What the page needs to read it (`nx, ny, grid, tone`: the last but one the step of drawn lines, m), and per
         name its bytes: `xs`, `ys` m and `heights` m (ny, nx) as float32, `tones` (ny, nx) as bytes.
     """
     middle = float(np.mean([x.min(), x.max()])), float(np.mean([y.min(), y.max()]))
     half = max(float(np.ptp(x)), float(np.ptp(y))) / 2
-    xmin, xmax, ymin, ymax = window(terrain, *middle, span + half / 4)
+    xmin, xmax, ymin, ymax = window(terrain, *middle, WIDE * span + half / 4)
     near = [
         (max(float(v.min()) - ROOM * span, low), min(float(v.max()) + ROOM * span, high))
         for v, low, high in ((x, xmin, xmax), (y, ymin, ymax))
@@ -54,17 +57,22 @@ def path_ground(terrain: Terrain, x: Array, y: Array, span: float) -> tuple[dict
     )
     X, Y = np.meshgrid(xs, ys)
     H = np.asarray(terrain.height(X, Y), dtype=np.float64)
-    (a, b), (c, d) = near
-    close = H[(a <= X) & (b >= X) & (c <= Y) & (d >= Y)]
-    contour = nice_step(float(np.ptp(close)))
-    shades = tones(H, steepness_of(terrain, X, Y), contour, np.maximum(pitch_of(xs, ys), fine))
-    about = {"nx": len(xs), "ny": len(ys), "contour": contour, "grid": grid}
+    codes = np.clip(np.rint(TONE * _tones(H, np.asarray(terrain.gradient(X, Y)))), 0, 255)
+    about = {"nx": len(xs), "ny": len(ys), "grid": grid, "tone": TONE}
     return about, {
         "xs": xs.astype("<f4").tobytes(),
         "ys": ys.astype("<f4").tobytes(),
         "heights": H.astype("<f4").tobytes(),
-        "tones": np.clip(np.rint(TONE * shades), 0, 255).astype(np.uint8).tobytes(),
+        "tones": codes.astype(np.uint8).tobytes(),
     }
+
+
+def _tones(H: Array, gradient: Array) -> Array:
+    """Factors on sand, (ny, nx): lighter uphill, darker on flanks, which are seen from above too."""
+    reach = float(np.ptp(H))
+    uphill = 0.94 + 0.08 * (H - float(H.min())) / reach if reach > 1e-6 else np.ones(H.shape)
+    shades: Array = uphill * (1.0 - 0.16 * np.clip(np.linalg.norm(gradient, axis=-1), 0.0, 1.0))
+    return shades
 
 
 def _pitch(terrain: Terrain, span: float, area: float) -> float:

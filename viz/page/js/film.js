@@ -12,14 +12,16 @@ export function filmStrip(stage, frames, times, view) {
   strip.style.gridTemplateRows = `repeat(${rows}, minmax(0, 1fr))`;
   const cells = times.map((t) => cell(frames, t));
   strip.replaceChildren(...cells.map(({ box }) => box));
-  if (!stage.view) return;
+  if (stage.view) new ResizeObserver(() => shoot(stage, cells, times, view)).observe(strip);
+}
+
+function shoot(stage, cells, times, view) {
   const { clientWidth: width, clientHeight: height } = cells[0].box;
-  const pane = byId("pane");
-  Object.assign(pane.style, { width: `${width}px`, height: `${height}px`, inset: "auto" });
+  Object.assign(byId("pane").style, { width: `${width}px`, height: `${height}px`, inset: "auto" });
   stage.view.viewer.set_3d_pane_size();
   const { domElement } = stage.view.viewer.renderer;
   cells.forEach(({ canvas, labels }, k) => {
-    stage.draw(times[k], view);
+    stage.draw(times[k], view ?? "Iso");
     stage.view.viewer.render();
     canvas.width = domElement.width;
     canvas.height = domElement.height;

@@ -36,7 +36,7 @@ function tellRun(frames, robot, ground) {
   byId("notes").hidden = !notes.length;
   const loaded = frames.heaviest > 0;
   for (const mark of document.querySelectorAll(".needs-loads")) mark.hidden = !loaded;
-  byId("net").textContent = `fields of ${fixed(ground.grid, ground.grid < 0.1 ? 2 : ground.grid < 1 ? 1 : 0)} m${ground.contour ? `, contours every ${Math.round(1000 * ground.contour)} mm` : ""}`;
+  byId("net").textContent = `fields of ${fixed(ground.grid, ground.grid < 0.1 ? 2 : ground.grid < 1 ? 1 : 0)} m`;
 }
 
 function keys(state) {

@@ -7,7 +7,7 @@ const MANY = ["#0b57a4", "#d95f02", "#1b9e77", "#7b3294", "#a6761d", "#d6007f", 
 const LEFT = ["#08417c", "#2f7fcc", "#8dbbe8"];
 const RIGHT = ["#00573f", "#189b74", "#86cdb6"];
 const [GUTTER, EDGE, TOP] = [46, 12, 3];
-const CUT = 3;
+const CUT = 2;
 
 export class TimePlots {
   /** `seek(t)` is called where somebody points at a time. */
@@ -66,9 +66,9 @@ export class TimePlots {
   /** Colour and dashes of a line: wheels by side and place, others one after the other. */
   style(panel, name) {
     const side = panel.key === "loads" || panel.key === "drift" ? this.sides.get(name) : null;
-    if (side) return { colour: (side.left ? LEFT : RIGHT)[Math.min(side.rank, 2)], dash: side.left ? [] : [5, 2.5] };
+    if (side) return { colour: (side.left ? LEFT : RIGHT)[Math.min(side.rank, 2)], dash: side.left ? [] : [6, 5] };
     const k = panel.names.indexOf(name);
-    return { colour: MANY[k % MANY.length], dash: k < MANY.length ? [] : [5, 2.5] };
+    return { colour: MANY[k % MANY.length], dash: k < MANY.length ? [] : [6, 5] };
   }
 
   x(t) {
@@ -112,8 +112,9 @@ export class TimePlots {
     const [left, right] = [GUTTER, this.width - EDGE];
     context.font = "11px system-ui, sans-serif";
     context.textAlign = "right";
-    const marks = ticks(low, high, Math.max(2, Math.min(5, height / 26)));
-    const places = decimalsFor(nice((high - low) / Math.max(2, Math.min(5, height / 26))));
+    const count = Math.max(3, Math.min(5, height / 26));
+    const marks = ticks(low, high, count);
+    const places = decimalsFor(nice((high - low) / count));
     for (const value of marks) {
       context.fillStyle = "#e7ebef";
       context.fillRect(left, Math.round(y(value)), right - left, 1);
@@ -177,11 +178,15 @@ export class TimePlots {
     for (const panel of this.panels) {
       for (const { chip, value, line } of panel.chips) {
         const now = line ? valueAt(line, t) : NaN;
-        value.textContent = panel.limit === null ? said(now) : number(now, 2);
+        value.textContent = panel.limit === null ? said(now) : index(now);
         chip.classList.toggle("over", panel.limit !== null && now > panel.limit);
       }
     }
   }
+}
+
+function index(value) {
+  return Number.isFinite(value) ? fixed(value, 2) : number(value);
 }
 
 function said(value) {
