@@ -34,15 +34,13 @@ def motion_page(runs: Runs, title: str | None = None) -> str:
 
     Args:
         runs: a run, several, or several by the name under which they are chosen.
-        title: of the page; the rover's name and terrain where None.
+        title: of the page; the rover's name where None.
 
     Raises:
         InputError: no run, or one whose parts do not fit (see `checked_run`).
     """
     named = _named(runs)
-    first = next(iter(named.values()))
-    heading = f"{first.rover.name} on {first.terrain.label}" if len(named) == 1 else first.rover.name
-    heading = heading if title is None else title
+    heading = next(iter(named.values())).rover.name if title is None else title
     return page("motion", heading, motion_pack(named, heading))
 
 
@@ -77,24 +75,27 @@ def save_motion_png(
 
     Raises:
         BrowserError: no Chromium or Chrome is installed, or it made no picture.
-        InputError: as `motion_page`; a time outside the run, too many of them, an unknown view; the file cannot
-            be written.
+        InputError: as `motion_page`; a time outside the run, too many of them, an unknown view; the file
+            cannot be written.
     """
     views = ("Iso", "Side", "Front", "Top")
     if view not in views:
         raise InputError("no such view", element="view", value=view, cure=f"use one of {', '.join(views)}")
     checked_run(run)
     first, last = float(run.time[0]), float(run.time[-1])
-    wanted = np.linspace(first, last, MOMENTS if last > first else 1) if at is None else np.atleast_1d(at)
-    times = _times(wanted, first, last)
+    even = np.linspace(first, last, MOMENTS if last > first else 1)
+    times = _times(even if at is None else at, first, last)
     find_browser()  # before the work of drawing
-    word = "t" if np.ndim(at) == 0 and at is not None else "film"
+    word = "film" if at is None or isinstance(at, (Sequence, np.ndarray)) else "t"
     fragment = f"{word}={','.join(f'{time - first:.6g}' for time in times)}&view={view}"
     return write_whole(path, picture(motion_page(run), width=width, height=height, fragment=fragment))
 
 
 def _times(wanted: object, first: float, last: float) -> list[float]:
-    times = [float(time) for time in np.asarray(wanted, dtype=np.float64).ravel()]
+    try:
+        times = [float(time) for time in np.asarray(wanted, dtype=np.float64).ravel()]
+    except (TypeError, ValueError) as error:
+        raise InputError("is no time", element="at", value=str(wanted), cure="give seconds") from error
     if not 1 <= len(times) <= MOST_MOMENTS:
         raise InputError(
             "as many moments as a strip has no room for",

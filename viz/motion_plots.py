@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import itertools
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -36,6 +37,9 @@ LABELS = {
     "attitude": "attitude [°]",
     "drift": "drift [mm]",
 }
+CUT = 2.0
+"""Times the limit: where a panel ends."""
+
 CROWDED = 14
 """So many changes of action are named by letters, with a key below."""
 
@@ -43,10 +47,11 @@ CROWDED = 14
 def plot_run(run: Run) -> Figure:
     """A run against time: what the log has of indices, loads, clearance, attitude and drift, one panel each.
 
-    Triangles on the first panel's axis mark where another action starts, with its name, or where there are many
-    with a letter and a key below. An index is the largest of its constraint's parts; the dashed line at 1 is its
-    limit. Wheels of the left are drawn in blue, of the right in green and dashed, the foremost darkest. Values
-    that were not asked for are joined across; a line breaks where they are silent five times as long as usual.
+    Triangles on the first panel's axis mark where another action starts, with its name, or where there are
+    many with a letter and a key below. An index is the largest of its constraint's parts; the dashed line at
+    1 is its limit. Wheels of the left are drawn in blue, of the right in green and dashed, the foremost
+    darkest. Values that were not asked for are joined across; a line breaks where they are silent five times
+    as long as usual.
 
     Returns:
         A matplotlib Figure; `figure.savefig("run.svg")` writes it.
@@ -79,35 +84,35 @@ def _panel(axes: Axes, run: Run, key: str, lines: Sequence[Curve]) -> None:
     styles = _styles(run, key, lines)
     for curve, (colour, dash) in zip(lines, styles, strict=True):
         t, v = line(time, curve.values, POINTS)
-        mark = {"marker": "o", "markersize": 2.5} if np.count_nonzero(~np.isnan(v)) == 1 else {}
+        mark: Any = {"marker": "o", "markersize": 2.5} if np.count_nonzero(~np.isnan(v)) == 1 else {}
         label = curve.name.replace("_", " ")
-        axes.plot(t, np.ma.masked_invalid(v), dash, color=colour, linewidth=1.0, label=label, **mark)  # type: ignore[arg-type]
+        axes.plot(t, np.ma.masked_invalid(v), dash, color=colour, linewidth=1.0, label=label, **mark)
     axes.set_ylabel(LABELS[key])
     limit = PANELS[key][2]
     if limit is not None:
         axes.axhline(limit, color="#d95f02", linewidth=0.8, linestyle=(0, (4, 2)))
-        axes.set_ylim(0.0, _top(lines, limit))
-    elif key in ("loads", "drift"):
-        axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
+        _cut(axes, lines, limit)
+    axes.margins(x=0.01)
     if len(lines) > 1:
-        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=6.5, handlelength=1.6,
-                    labelspacing=0.25)  # fmt: skip
+        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=6.5,
+                    handlelength=1.6, labelspacing=0.25)  # fmt: skip
 
 
-def _top(lines: Sequence[Curve], limit: float) -> float:
-    """Of the panel with a limit; values far above it are cut."""
+def _cut(axes: Axes, lines: Sequence[Curve], limit: float) -> None:
+    """From 0 to a little above all, at most to twice the limit; what is above is said."""
     finite: Array = np.concatenate([curve.values[np.isfinite(curve.values)] for curve in lines])
     highest = float(finite.max()) if len(finite) else limit
-    return min(max(1.15 * limit, 1.05 * highest), 3.0 * limit)
+    axes.set_ylim(0.0, min(max(1.15 * limit, 1.05 * highest), CUT * limit))
+    if highest > CUT * limit:
+        axes.text(0.995, 0.97, f"cut at {CUT * limit:g}; highest {highest:.3g}", ha="right", va="top",
+                  transform=axes.transAxes, fontsize=6.5, color="0.25")  # fmt: skip
 
 
 def _styles(run: Run, key: str, lines: Sequence[Curve]) -> list[tuple[str, str]]:
     """Colour and dash of every line: wheels by side and place, others one after the other."""
     if key not in ("loads", "drift"):
         return [(MANY[k % len(MANY)], "-" if k < len(MANY) else "--") for k in range(len(lines))]
-    sides = {
-        shape.name: side for shape, side in zip(run.rover.shapes, wheel_sides(run.rover), strict=True)
-    }
+    sides = {shape.name: side for shape, side in zip(run.rover.shapes, wheel_sides(run.rover), strict=True)}
     found = [(sides[curve.name]["left"], min(sides[curve.name]["rank"], 2)) for curve in lines]
     return [(LEFT[rank], "-") if left else (RIGHT[rank], "--") for left, rank in found]
 
@@ -128,9 +133,9 @@ def _changes(figure: Figure, axes: Sequence[Axes], run: Run) -> None:
     crowded = len(starts) > CROWDED or _narrow(run, starts)
     for span in starts:
         word = _letter(words.index(span.word)) if crowded else span.word.replace("_", " ")
-        turned = {"rotation": 30.0, "ha": "left"} if not crowded else {"ha": "center"}
+        turned: Any = {"ha": "center"} if crowded else {"rotation": 30.0, "ha": "left"}
         first.annotate(word, (float(run.time[span.first]), 1.0), (0, 5), xycoords=across,
-                       textcoords="offset points", fontsize=6.5, va="bottom", **turned)  # type: ignore[arg-type]
+                       textcoords="offset points", fontsize=6.5, va="bottom", **turned)  # fmt: skip
     if crowded:
         key = "    ".join(f"{_letter(k)}  {word.replace('_', ' ')}" for k, word in enumerate(words))
         figure.supxlabel(key, fontsize=6.5, color="0.25", wrap=True)
@@ -140,7 +145,7 @@ def _narrow(run: Run, starts: Sequence[Span[str]]) -> bool:
     """Whether names would lie on each other."""
     span = float(run.time[-1] - run.time[0])
     places = [float(run.time[start.first]) for start in starts]
-    return any(b - a < 0.045 * span for a, b in zip(places[:-1], places[1:], strict=True))
+    return any(b - a < 0.045 * span for a, b in itertools.pairwise(places))
 
 
 def _letter(k: int) -> str:

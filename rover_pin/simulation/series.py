@@ -53,5 +53,6 @@ def clearance(run: Run) -> Array | None:
         pin.forwardKinematics(rover.model, data, q)
         for k, (joint, point) in enumerate(points):
             places[sample, k] = data.oMi[joint].act(point)
-    heights: Array = places[..., 2] - run.terrain.height(places[..., 0], places[..., 1])
-    return heights.min(axis=1)
+    heights = places[..., 2] - run.terrain.height(places[..., 0], places[..., 1])
+    least: Array = heights.min(axis=1)
+    return least

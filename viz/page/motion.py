@@ -13,9 +13,9 @@ from rover_pin.numerics import Array
 from rover_pin.simulation.series import spans
 from rover_pin.viz.page.curves import PANELS, packed_curves
 from rover_pin.viz.page.pack import Pack
+from rover_pin.viz.page.path_ground import path_ground
 from rover_pin.viz.page.robots import robot
 from rover_pin.viz.page.thin import Indices, evenly, held
-from rover_pin.viz.page.path_ground import path_ground
 from rover_pin.viz.scene import span_of
 
 if TYPE_CHECKING:
@@ -76,11 +76,15 @@ def _shared(runs: list[Run], key: Callable[[Run], K]) -> tuple[list[Run], dict[i
 
 
 def _run(run: Run) -> tuple[dict[str, Any], dict[str, bytes]]:
-    """A run's own part: `time` float64 (frames,) s since the first, `q` float32 (nv, frames), `loads` float32
-    (wheels, frames), `curves`.
-    """  # noqa: D205
+    """A run's own part.
+
+    Returns:
+        What the page needs to know, and by name its bytes: `time` float64 (frames,) s since the first, `q`
+        float32 (nv, frames), `loads` float32 (wheels, frames) N, `curves` (see `packed_curves`).
+    """
     actions, lifted = spans(run.actions), spans(run.lifted)
-    changes = [end for span in (*actions, *lifted) for end in (span.first, span.last)]
+    changes = [span.first for span in actions] + [span.first for span in lifted]
+    changes += [first - 1 for first in changes]
     kept = evenly(len(run.time), FRAMES, changes)
     time = np.asarray(run.time, dtype=np.float64) - float(run.time[0])
     lines, points = packed_curves(run)
@@ -122,10 +126,11 @@ def wheel_sides(rover: Rover) -> list[dict[str, Any]]:
     base = data.oMi[1].inverse()
     at = [(base * data.oMi[shape.joint]).act(np.asarray(shape.center)) for shape in rover.shapes]
     left = [bool(place[1] > 0) for place in at]
-    return [
-        {"left": side, "rank": sum(1 for o, other in zip(left, at, strict=True) if o == side and other[0] > place[0])}
+    ahead = [
+        sum(1 for other, there in zip(left, at, strict=True) if other == side and there[0] > place[0])
         for side, place in zip(left, at, strict=True)
-    ]  # fmt: skip
+    ]
+    return [{"left": side, "rank": rank} for side, rank in zip(left, ahead, strict=True)]
 
 
 def _not_drawn(rover: Rover) -> list[str]:

@@ -38,8 +38,9 @@ def path_ground(terrain: Terrain, x: Array, y: Array, span: float) -> tuple[dict
         span: wheel span, m.
 
     Returns:
-        What the page needs to read it (`nx, ny, grid, tone`: the last but one the step of drawn lines, m), and per
-        name its bytes: `xs`, `ys` m and `heights` m (ny, nx) as float32, `tones` (ny, nx) as bytes.
+        What the page needs to read it (`nx`, `ny`, `grid`: the step of drawn lines, m, `tone`: the code of
+        the plain tone), and by name its bytes: `xs`, `ys` and `heights` (ny, nx) m as float32, `tones`
+        (ny, nx).
     """
     middle = float(np.mean([x.min(), x.max()])), float(np.mean([y.min(), y.max()]))
     half = max(float(np.ptp(x)), float(np.ptp(y))) / 2
@@ -95,6 +96,6 @@ def _lines(
     close = np.sort(np.concatenate([multiples(pitch, origin), multiples(grid, 0.0), inner]))
     close = close[np.concatenate([[True], np.diff(close) > 1e-3 * pitch])]
     t = np.linspace(0.0, 1.0, OUTER + 1)[1:] ** 2.5
-    left = inner[0] - t[::-1] * (inner[0] - outer[0]) if outer[0] < inner[0] else []
-    right = inner[1] + t * (outer[1] - inner[1]) if outer[1] > inner[1] else []
-    return np.concatenate([left, close, right])
+    left = inner[0] - t[::-1] * (inner[0] - outer[0])
+    right = inner[1] + t * (outer[1] - inner[1])
+    return np.concatenate([left[left < inner[0]], close, right[right > inner[1]]])

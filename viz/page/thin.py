@@ -24,7 +24,7 @@ def evenly(count: int, most: int, always: Iterable[int] = ()) -> Indices:
 
 
 def extremes(values: Array, most: int) -> Indices:
-    """About `most` samples of values (n,) without NaN that look like all: per stretch the least and the largest."""
+    """About `most` samples of values (n,), none NaN, that look like all: per stretch least and largest."""
     count = len(values)
     if count <= most:
         return np.arange(count)
@@ -44,8 +44,8 @@ def usual_silence(time: Array) -> float:
 def line(time: Array, values: Array, most: int) -> tuple[Array, Array]:
     """Times and values of a plotted line of about `most` points: only what is known, extremes kept.
 
-    NaN is a value that nobody asked for. Known values are joined across it; where they are silent for more than
-    `usual_silence`, one NaN in the middle breaks the line.
+    NaN is a value that nobody asked for. Known values are joined across it; where they are silent for more
+    than `usual_silence`, one NaN in the middle breaks the line.
 
     Args:
         time: (n,) s, rising.

@@ -24,7 +24,7 @@ function asked(count) {
 
 /* What a run is, and what of it the page leaves out. */
 function tellRun(frames, robot, ground) {
-  byId("terrain").textContent = `on ${frames.terrain} · ${fixed(frames.samples, 0)} samples in ${fixed(frames.length, 1)} s`;
+  byId("terrain").textContent = `on ${frames.terrain} · ${fixed(frames.samples, 0)} sample${frames.samples > 1 ? "s" : ""} in ${fixed(frames.length, 1)} s`;
   const chip = byId("status");
   chip.textContent = frames.status.replace(/_/g, " ");
   chip.className = `chip ${frames.status === "done" ? "good" : "bad"}`;

@@ -112,7 +112,8 @@ export class TimePlots {
     const [left, right] = [GUTTER, this.width - EDGE];
     context.font = "11px system-ui, sans-serif";
     context.textAlign = "right";
-    const count = Math.max(3, Math.min(5, height / 26));
+    let count = Math.max(3, Math.min(5, height / 26));
+    if (ticks(low, high, count).length < 2) count *= 2;
     const marks = ticks(low, high, count);
     const places = decimalsFor(nice((high - low) / count));
     for (const value of marks) {

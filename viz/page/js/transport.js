@@ -32,7 +32,7 @@ export class Transport {
     this.pause();
     this.frames = frames;
     Object.assign(this.slider, { min: 0, max: frames.length, step: "any" });
-    this.speed.value = SPEEDS.find((speed) => frames.length / speed <= WATCH) ?? SPEEDS[SPEEDS.length - 1];
+    this.speed.value = SPEEDS.find((speed) => speed >= 1 && frames.length / speed <= WATCH) ?? SPEEDS[SPEEDS.length - 1];
     for (const id of ["play", "back", "on", "time"]) byId(id).disabled = !(frames.length > 0);
     this.draw();
   }
