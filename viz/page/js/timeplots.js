@@ -2,12 +2,11 @@
 import { sized } from "./canvas.js";
 import { decimalsFor, element, fixed, nice, number, ticks } from "./format.js";
 import { valueAt } from "./frames.js";
+import { CUT, EDGE, GUTTER, TOP, drawField, drawLine, rangeOf } from "./panel.js";
 
 const MANY = ["#0b57a4", "#d95f02", "#1b9e77", "#7b3294", "#a6761d", "#d6007f", "#3f9fd8", "#4d5a66", "#8c2d04", "#00665e", "#b15fb5"];
 const LEFT = ["#08417c", "#2f7fcc", "#8dbbe8"];
 const RIGHT = ["#00573f", "#189b74", "#86cdb6"];
-const [GUTTER, EDGE, TOP] = [46, 12, 3];
-const CUT = 2;
 
 export class TimePlots {
   /** `seek(t)` is called where somebody points at a time. */
@@ -95,62 +94,18 @@ export class TimePlots {
     for (const { chip, name } of panel.chips) chip.classList.toggle("off", alone !== null && name !== alone);
     const height = Math.max(24, panel.space.clientHeight);
     const context = sized(panel.canvas, this.width, height);
-    const { low, high, cut } = range(lines, panel.limit);
+    const { low, high, cut } = rangeOf(lines, panel.limit);
     panel.note.textContent = panel.unit + (cut ? `; cut at ${CUT}, highest ${number(cut)}` : "");
     const y = (v) => TOP + (1 - (v - low) / (high - low)) * (height - 2 * TOP);
-    this.field(context, { low, high, y, height, limit: panel.limit });
+    const x = (t) => this.x(t);
+    const changes = this.frames.actions.slice(1).map(({ from }) => from);
+    drawField(context, { low, high, y, height, width: this.width, limit: panel.limit, x, changes });
     const parts = lines.filter((line) => line.part >= 0);
     for (const line of lines) {
       const { colour, dash } = this.style(panel, line.name);
       const faint = line.part === -1 && parts.length > 0;
-      if (!faint) this.trace(context, line, (v) => y(Math.min(high, Math.max(low, v))), colour, line.part > 0 ? [2, 3] : dash);
+      if (!faint) drawLine(context, line, x, (v) => y(Math.min(high, Math.max(low, v))), colour, line.part > 0 ? [2, 3] : dash);
     }
-  }
-
-  /** Ground of a panel: round values, changes of action, the limit. */
-  field(context, { low, high, y, height, limit }) {
-    const [left, right] = [GUTTER, this.width - EDGE];
-    context.font = "11px system-ui, sans-serif";
-    context.textAlign = "right";
-    let count = Math.max(3, Math.min(5, height / 26));
-    if (ticks(low, high, count).length < 2) count *= 2;
-    const marks = ticks(low, high, count);
-    const places = decimalsFor(nice((high - low) / count));
-    for (const value of marks) {
-      context.fillStyle = "#e7ebef";
-      context.fillRect(left, Math.round(y(value)), right - left, 1);
-      context.fillStyle = "#5d6873";
-      context.fillText(fixed(value, places), left - 6, Math.min(height - 2, Math.max(9, y(value) + 4)));
-    }
-    if (limit !== null && limit >= low && limit <= high) {
-      context.fillStyle = "rgba(217, 95, 2, .09)";
-      context.fillRect(left, 0, right - left, y(limit));
-      context.fillStyle = "#d95f02";
-      context.fillRect(left, y(limit) - 0.75, right - left, 1.5);
-    }
-    context.fillStyle = "rgba(29, 36, 44, .13)";
-    for (const { from } of this.frames.actions.slice(1)) context.fillRect(this.x(from) - 0.5, 0, 1, height);
-    context.fillStyle = "#9aa6b2";
-    context.fillRect(left, 0, 1, height);
-  }
-
-  trace(context, { times, values }, y, colour, dash) {
-    context.strokeStyle = colour;
-    context.fillStyle = colour;
-    context.lineWidth = 1.6;
-    context.lineJoin = "round";
-    context.setLineDash(dash);
-    context.beginPath();
-    values.forEach((value, k) => {
-      if (Number.isNaN(value)) return;
-      const [px, py] = [this.x(times[k]), y(value)];
-      const begins = k === 0 || Number.isNaN(values[k - 1]);
-      if (begins) context.moveTo(px, py);
-      else context.lineTo(px, py);
-      if (begins && (k + 1 === values.length || Number.isNaN(values[k + 1]))) context.fillRect(px - 2, py - 2, 4, 4);
-    });
-    context.stroke();
-    context.setLineDash([]);
   }
 
   times() {
@@ -192,25 +147,4 @@ function index(value) {
 
 function said(value) {
   return Number.isFinite(value) ? fixed(value, Math.abs(value) < 9.95 ? 1 : 0) : "–";
-}
-
-/** Values that a panel shows: from 0 where they do not go below, a little room above, cut where a limit would drown. */
-function range(lines, limit) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const { values } of lines) {
-    for (const value of values) {
-      if (!Number.isFinite(value)) continue;
-      low = Math.min(low, value);
-      high = Math.max(high, value);
-    }
-  }
-  if (!(high >= low)) return { low: 0, high: 1, cut: 0 };
-  if (limit !== null) {
-    const top = Math.max(1.12 * limit, 1.04 * high);
-    return { low: 0, high: Math.min(top, CUT * limit), cut: top > CUT * limit ? high : 0 };
-  }
-  const least = Math.max(0.02 * Math.max(Math.abs(low), Math.abs(high)), 1);
-  if (low >= 0 && low < 0.6 * high) return { low: 0, high: Math.max(1.06 * high, least), cut: 0 };
-  const room = Math.max(0.08 * (high - low), least / 2);
-  return { low: low - room, high: high + room, cut: 0 };
 }
