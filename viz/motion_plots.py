@@ -40,6 +40,9 @@ LABELS = {
 CUT = 2.0
 """Times the limit: where a panel ends."""
 
+TOGETHER = 0.012
+"""Share of the run within which changes of action are named together."""
+
 CROWDED = 14
 """So many changes of action are named by letters, with a key below."""
 
@@ -50,8 +53,7 @@ def plot_run(run: Run) -> Figure:
     Triangles on the first panel's axis mark where another action starts, with its name, or where there are
     many with a letter and a key below. An index is the largest of its constraint's parts; the dashed line at
     1 is its limit. Wheels of the left are drawn in blue, of the right in green and dashed, the foremost
-    darkest. Values that were not asked for are joined across; a line breaks where they are silent five times
-    as long as usual.
+    darkest. Values known every so many samples are joined; a line breaks where they are silent for longer.
 
     Returns:
         A matplotlib Figure; `figure.savefig("run.svg")` writes it.
@@ -93,7 +95,7 @@ def _panel(axes: Axes, run: Run, key: str, lines: Sequence[Curve]) -> None:
         axes.axhline(limit, color="#d95f02", linewidth=0.8, linestyle=(0, (4, 2)))
         _cut(axes, lines, limit)
     axes.margins(x=0.01)
-    if len(lines) > 1:
+    if len(lines) > 1 or key == "indices":
         axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=6.5,
                     handlelength=1.6, labelspacing=0.25)  # fmt: skip
 
@@ -122,7 +124,6 @@ def _changes(figure: Figure, axes: Sequence[Axes], run: Run) -> None:
     starts = [span for span in spans(run.actions) if span.word]
     if not starts:
         return
-    words = list(dict.fromkeys(span.word for span in starts))
     first = axes[0]
     across = first.get_xaxis_transform()
     for span in starts:
@@ -130,21 +131,34 @@ def _changes(figure: Figure, axes: Sequence[Axes], run: Run) -> None:
         first.plot([at], [1.0], "v", color="0.25", markersize=4, transform=across, clip_on=False)
         for axis in axes if span.first else ():
             axis.axvline(at, color="0.85", linewidth=0.6, zorder=0)
-    crowded = len(starts) > CROWDED or _narrow(run, starts)
-    for span in starts:
-        word = _letter(words.index(span.word)) if crowded else span.word.replace("_", " ")
+    words = list(dict.fromkeys(span.word for span in starts))
+    places = _places(run, starts)
+    crowded = len(places) > CROWDED or _narrow(run, list(places))
+    for at, several in places.items():
+        word = " ".join(_letter(words.index(w)) for w in several) if crowded else ", ".join(several)
         turned: Any = {"ha": "center"} if crowded else {"rotation": 30.0, "ha": "left"}
-        first.annotate(word, (float(run.time[span.first]), 1.0), (0, 5), xycoords=across,
-                       textcoords="offset points", fontsize=6.5, va="bottom", **turned)  # fmt: skip
+        first.annotate(word, (at, 1.0), (0, 5), xycoords=across, textcoords="offset points", fontsize=6.5,
+                       va="bottom", **turned)  # fmt: skip
     if crowded:
-        key = "    ".join(f"{_letter(k)}  {word.replace('_', ' ')}" for k, word in enumerate(words))
+        key = "    ".join(f"{_letter(k)}  {word}" for k, word in enumerate(words))
         figure.supxlabel(key, fontsize=6.5, color="0.25", wrap=True)
 
 
-def _narrow(run: Run, starts: Sequence[Span[str]]) -> bool:
+def _places(run: Run, starts: Sequence[Span[str]]) -> dict[float, list[str]]:
+    """Words by the time they stand at; those that start at almost the same time stand together."""
+    span = float(run.time[-1] - run.time[0])
+    places: dict[float, list[str]] = {}
+    at = -np.inf
+    for start in starts:
+        time = float(run.time[start.first])
+        at = time if time - at > TOGETHER * span else at
+        places.setdefault(at, []).append(start.word)
+    return places
+
+
+def _narrow(run: Run, places: Sequence[float]) -> bool:
     """Whether names would lie on each other."""
     span = float(run.time[-1] - run.time[0])
-    places = [float(run.time[start.first]) for start in starts]
     return any(b - a < 0.045 * span for a, b in itertools.pairwise(places))
 
 

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 def checked_run(run: Run) -> Run:
     """The same run, where every part has one entry a sample and says something.
 
-    NaN is nothing measured and stays, in indices, values, loads, drift and residual; it is refused in times
-    and configurations. One sample is a run.
+    NaN is nothing measured and stays, in indices, values, loads, drift, residual and apart; it is refused in
+    times and configurations. One sample is a run.
 
     Raises:
         InputError: no sample, parts of different length, a time that is not finite or runs back, a
@@ -38,8 +38,9 @@ def checked_run(run: Run) -> Run:
         for name, values in parts.items():
             _length(f"{element} {name!r}", values, count)
     _wheels(run, count)
-    if run.residual is not None:
-        _length("residual", run.residual, count)
+    for element, column in (("residual", run.residual), ("apart", run.apart)):
+        if column is not None:
+            _length(element, column, count)
     return run
 
 

@@ -167,14 +167,22 @@ def test_values_nobody_asked_for_are_joined_and_silence_is_a_gap():
     t, v = line(time, values, 50)
     np.testing.assert_allclose(t, np.arange(10))
     np.testing.assert_allclose(v, np.arange(10))
-    np.testing.assert_allclose(held(time, values)[[0, 9, 10, 99]], [0, 0, 1, 9])
-    values[15:85] = np.nan  # known at 0, 1, 9 s only
-    values[[1, 2, 3]] = 0.0
+    np.testing.assert_allclose(held(values)[[0, 9, 10, 99]], [0, 0, 1, 9])
+    values[20] = np.nan  # silent from 1 to 3 s
     t, v = line(time, values, 50)
-    assert np.isnan(v).sum() == 2
-    assert t[np.isnan(v)] == pytest.approx([0.65, 5.0])
-    assert np.isnan(held(time, values)[50])
-    assert np.isnan(held(time, np.full(100, np.nan))).all()
+    assert t[np.isnan(v)] == pytest.approx([2.0])
+    assert held(values)[19] == 1.0
+    assert np.isnan(held(values)[20:30]).all()
+    assert held(values)[30] == 3.0
+    assert np.isnan(held(np.full(100, np.nan))).all()
+
+
+def test_where_every_sample_is_known_one_that_is_not_is_a_gap():
+    time, values = np.arange(3000) * 0.01, np.sin(np.arange(3000) / 90)
+    values[1500] = np.nan
+    t, v = line(time, values, 100)
+    assert t[np.isnan(v)] == pytest.approx([15.0])
+    np.testing.assert_array_equal(held(values), values)
 
 
 def test_the_ground_is_the_terrains_and_ends_where_it_ends():

@@ -59,7 +59,7 @@ def test_the_rover_is_where_pinocchio_says_between_two_samples(run, tmp_path):
         ours = np.array(elements).reshape(4, 4).T
         np.testing.assert_allclose(ours, data.oMi[joint].homogeneous, atol=2e-5)
     assert ">9.0 s<" in page
-    assert re.search(r'id="action" class="chip">chassis raise<', page)
+    assert re.search(r'id="action" class="chip">chassis_raise<', page)
     assert re.search(r'id="lifted" class="chip bad">LF, RM lifted<', page)
     assert len(re.findall(r'<span class="label', page)) == 6
     assert page.count("LF lifted") == 1

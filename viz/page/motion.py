@@ -114,8 +114,7 @@ def _frames(run: Run, kept: Indices) -> Array:
 def _loads(run: Run, kept: Indices) -> Array:
     """(wheels, frames) float32 in the order of shapes, the last known ones; NaN where none is known."""
     nothing = np.full(len(run.time), np.nan)
-    time = np.asarray(run.time, dtype=np.float64)
-    loads = [held(time, np.asarray(run.loads.get(shape.name, nothing)))[kept] for shape in run.rover.shapes]
+    loads = [held(np.asarray(run.loads.get(shape.name, nothing)))[kept] for shape in run.rover.shapes]
     return np.ascontiguousarray(loads, dtype="<f4")
 
 

@@ -11,8 +11,8 @@ from rover_pin.numerics import Array
 
 Indices = NDArray[np.int64]
 
-GAP = 5.0
-"""A silence so many times the usual one between known values is a gap."""
+GAP = 1.5
+"""A silence so many times the usual one between known values, counted in samples, is a gap."""
 
 
 def evenly(count: int, most: int, always: Iterable[int] = ()) -> Indices:
@@ -36,16 +36,16 @@ def extremes(values: Array, most: int) -> Indices:
     return np.unique(np.array(kept, dtype=np.int64))
 
 
-def usual_silence(time: Array) -> float:
-    """The longest time from one known value to the next that is no gap, s; inf for fewer than three."""
-    return GAP * float(np.median(np.diff(time))) if len(time) > 2 else np.inf
+def longest_silence(known: Indices) -> float:
+    """Samples from one known value to the next that are no gap; any NaN is one where all else is known."""
+    return GAP * float(np.median(np.diff(known))) if len(known) > 1 else np.inf
 
 
 def line(time: Array, values: Array, most: int) -> tuple[Array, Array]:
     """Times and values of a plotted line of about `most` points: only what is known, extremes kept.
 
-    NaN is a value that nobody asked for. Known values are joined across it; where they are silent for more
-    than `usual_silence`, one NaN in the middle breaks the line.
+    NaN is what was not asked for or has no answer. Values known every so many samples are joined; where they
+    are silent for longer than that, one NaN in the middle breaks the line.
 
     Args:
         time: (n,) s, rising.
@@ -54,7 +54,7 @@ def line(time: Array, values: Array, most: int) -> tuple[Array, Array]:
     """
     known = np.flatnonzero(~np.isnan(values))
     t, v = time[known], values[known]
-    broken = np.flatnonzero(np.diff(t) > usual_silence(t))  # the gap follows this one
+    broken = np.flatnonzero(np.diff(known) > longest_silence(known))  # the gap follows this one
     kept = extremes(v, most)
     if not len(broken):
         return t[kept], v[kept]
@@ -64,12 +64,13 @@ def line(time: Array, values: Array, most: int) -> tuple[Array, Array]:
     return np.insert(t[kept], at, middles), np.insert(v[kept], at, np.nan)
 
 
-def held(time: Array, values: Array) -> Array:
-    """(n,) every sample's last known value, NaN before the first and where that is older than usual."""
+def held(values: Array) -> Array:
+    """(n,) every sample's last known value; NaN before the first, and where the next should have come."""
     known = np.flatnonzero(~np.isnan(values))
     if not len(known):
         return np.full(len(values), np.nan)
-    last = np.searchsorted(known, np.arange(len(values)), side="right") - 1
+    samples = np.arange(len(values))
+    last = np.searchsorted(known, samples, side="right") - 1
     source = known[np.maximum(last, 0)]
-    old = (last < 0) | (time - time[source] > usual_silence(time[known]))
-    return np.where(old, np.nan, values[source])
+    usual = longest_silence(known) / GAP
+    return np.where((last < 0) | (samples - source >= usual), np.nan, values[source])

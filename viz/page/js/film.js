@@ -34,7 +34,7 @@ function cell(frames, t) {
   const canvas = element("canvas");
   const labels = element("div", "labels");
   const lifted = frames.liftedAt(t);
-  const words = [frames.action(t).replace(/_/g, " "), lifted.length ? `${lifted.join(", ")} lifted` : ""];
+  const words = [frames.action(t), lifted.length ? `${lifted.join(", ")} lifted` : ""];
   const caption = element("figcaption", "", null, element("b", "", `${fixed(frames.start + t, 1)} s`), ` ${words.filter(Boolean).join(" · ")}`);
   return { box: element("figure", "", null, canvas, labels, caption), canvas, labels };
 }

@@ -22,7 +22,7 @@ export class Transport {
     this.strip.addEventListener("pointerdown", (event) => this.seek(this.pointed(event)));
     this.strip.addEventListener("pointermove", (event) => {
       const t = this.pointed(event);
-      this.strip.title = this.frames.action(t).replace(/_/g, " ");
+      this.strip.title = this.frames.action(t);
       if (event.buttons) this.seek(t);
     });
     new ResizeObserver(() => this.draw()).observe(this.strip.parentElement);
@@ -107,7 +107,7 @@ export class Transport {
       context.fillStyle = TINTS[words.indexOf(word) % TINTS.length];
       context.fillRect(a, 0, Math.max(wide - 1, 1), 20);
       context.fillStyle = "#1d242c";
-      const text = fitting(context, word.replace(/_/g, " "), wide - 10);
+      const text = fitting(context, word, wide - 10);
       if (text) context.fillText(text, a + 5, 14);
     });
   }
@@ -125,7 +125,7 @@ function fitting(context, text, wide) {
 export function tellMoment(frames, t) {
   const places = frames.length < 20 ? 2 : 1;
   byId("clock").textContent = `${fixed(frames.start + t, places)} s`;
-  byId("action").textContent = frames.action(t).replace(/_/g, " ") || "–";
+  byId("action").textContent = frames.action(t) || "–";
   const lifted = frames.liftedAt(t);
   byId("lifted").textContent = lifted.length ? `${lifted.join(", ")} lifted` : "no wheel lifted";
   byId("lifted").classList.toggle("bad", lifted.length > 0);
