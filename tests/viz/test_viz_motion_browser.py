@@ -120,6 +120,21 @@ def test_one_sample_with_nothing_measured_has_a_page(run, tmp_path):
 
 
 @needs_browser
+def test_without_webgl_the_plots_still_follow_the_clock(run, tmp_path):
+    off = """<script>
+    const known = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+      return kind.startsWith("webgl") ? null : known.call(this, kind, ...rest);
+    };
+    </script>"""
+    text = motion_page(run).replace("<header>", off + "<header>", 1)
+    page = dom(text, tmp_path, "t=10", 'document.dispatchEvent(new KeyboardEvent("keydown", { key: "2" }));')
+    assert 'class="message">No 3D here: this browser has WebGL switched off' in page
+    assert re.search(r"wheelbase <b[^>]*>1.09</b>", page)
+    assert ">10.0 s<" in page
+
+
+@needs_browser
 def test_a_strip_shows_every_moment(run, tmp_path):
     path = save_motion_png(
         run, tmp_path / "strip.png", at=[0.0, 10.0, 22.0], view="Side", width=900, height=600

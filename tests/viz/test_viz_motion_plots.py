@@ -53,7 +53,7 @@ def test_changes_of_action_are_marked_and_named(run):
 
 def test_many_changes_are_named_by_letters_with_a_key(run):
     words = ("creep_raise", "creep_lower", "rolling") * 4
-    figure = rp.viz.plot_run(dataclasses.replace(run, time=np.r_[0:11, 200.0], actions=words))
+    figure = rp.viz.plot_run(dataclasses.replace(run, time=np.r_[0:11, 40.0], actions=words))
     assert [text.get_text() for text in figure.axes[0].texts] == list("abcabcabcabc")
     assert figure.get_supxlabel() == "a  creep_raise    b  creep_lower    c  rolling"
 
