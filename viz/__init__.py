@@ -1,4 +1,4 @@
-"""Seeing: Meshcat scenes of stances, one-file pages of stances and studies, plots for papers.
+"""Seeing: Meshcat scenes of stances, one-file pages of stances, studies and motions, plots for papers.
 
 The functions load on first use, so that `import rover_pin` stays light.
 """
@@ -11,6 +11,10 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rover_pin.viz.browser import save_png as save_png
     from rover_pin.viz.mobility import plot_mobility as plot_mobility
+    from rover_pin.viz.motion import motion_page as motion_page
+    from rover_pin.viz.motion import save_motion_html as save_motion_html
+    from rover_pin.viz.motion import save_motion_png as save_motion_png
+    from rover_pin.viz.motion_plots import plot_run as plot_run
     from rover_pin.viz.page.search import save_search_page as save_search_page
     from rover_pin.viz.page.sensitivity import save_sensitivity_page as save_sensitivity_page
     from rover_pin.viz.page.study import save_study_page as save_study_page
@@ -24,10 +28,14 @@ if TYPE_CHECKING:
 
 _HOME = {
     "draw": "scene",
+    "motion_page": "motion",
     "plot_distributions": "plots",
     "plot_map": "plots",
     "plot_mobility": "mobility",
+    "plot_run": "motion_plots",
     "save_html": "show",
+    "save_motion_html": "motion",
+    "save_motion_png": "motion",
     "save_png": "browser",
     "save_search_page": "page.search",
     "save_sensitivity_page": "page.sensitivity",

@@ -62,7 +62,7 @@ def test_scripts_close_where_they_should(pages, name):
     assert "{{" not in own_part(text)
 
 
-@pytest.mark.parametrize("entry", ["stance.js", "study.js"])
+@pytest.mark.parametrize("entry", ["stance.js", "study.js", "motion.js"])
 def test_a_bundle_is_one_script_with_each_name_once(entry):
     text = bundle(entry)
     assert not re.search(r"^(import|export)\b", text, re.M)
@@ -70,15 +70,15 @@ def test_a_bundle_is_one_script_with_each_name_once(entry):
     assert len(names) == len(set(names)), sorted(n for n in names if names.count(n) > 1)
 
 
-def test_the_study_uses_every_script():
-    used = bundle("study.js") + bundle("stance.js")
+def test_the_pages_use_every_script():
+    used = bundle("study.js") + bundle("stance.js") + bundle("motion.js")
     for path in (HERE / "js").glob("*.js"):
         first = path.read_text().splitlines()[0]
         assert first in used, path.name
 
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
-@pytest.mark.parametrize("entry", ["stance.js", "study.js"])
+@pytest.mark.parametrize("entry", ["stance.js", "study.js", "motion.js"])
 def test_a_bundle_is_valid_script(entry, tmp_path):
     path = tmp_path / "bundle.js"
     path.write_text(bundle(entry))

@@ -103,24 +103,27 @@ export class Marks {
     this.solid = new Buffers(view.THREE, parent, 0.95);
   }
 
-  /** Draw a case's marks; returns labels for the loads. `limiting`: words, the first that is an edge counts. */
-  draw({ contacts, com, limiting, span, groundHeight }) {
+  /** Draw a case's marks; returns labels for the loads. `limiting`: words, the first that is an edge counts.
+   * `heaviest`: the load whose arrow is longest; this case's where it is 0. `apart`: share of it by which the
+   * lightest wheel must be lighter to be marked; edges as near as half that share of the span are marked alike. */
+  draw({ contacts, com, limiting, span, groundHeight, heaviest = 0, apart = 0 }) {
     const { solid, area } = this;
     solid.begin();
     area.begin();
     const bearing = contacts.filter((contact) => contact[4] > 0);
-    const most = Math.max(...bearing.map((contact) => contact[4]), 1e-9);
+    const most = heaviest || Math.max(...bearing.map((contact) => contact[4]), 1e-9);
     const totals = new Map();
     for (const [name, , , , load] of contacts) totals.set(name, (totals.get(name) ?? 0) + (load || 0));
     const least = Math.min(...totals.values());
-    this.lightest = [...totals].find(([, load]) => load === least)?.[0] ?? null;
-    this.polygon(bearing, com, limiting, span);
+    const told = Math.max(...totals.values()) - least >= apart * most;
+    this.lightest = (told && [...totals].find(([, load]) => load === least)?.[0]) || null;
+    this.polygon(bearing, com, limiting, span, apart);
     const labels = [];
     for (const [name, x, y, z, load] of bearing) {
       const tall = (0.4 * span * load) / most;
       const light = name === this.lightest;
       solid.arrow([x, y, z], tall, 0.0095 * span, light ? LIMIT : LOAD);
-      labels.push({ at: [x, y, z + tall], text: `${load < 10 ? load.toFixed(2) : Math.round(load)} N`, light });
+      labels.push({ name, at: [x, y, z + tall], text: `${load < 10 ? load.toFixed(2) : Math.round(load)} N`, light });
     }
     const foot = [com[0], com[1], groundHeight];
     solid.ball(com, 0.022 * span, COM);
@@ -131,20 +134,22 @@ export class Marks {
     return labels;
   }
 
-  polygon(bearing, com, limiting, span) {
+  polygon(bearing, com, limiting, span, apart) {
     const ring = bearing.length > 2 ? hullOf(bearing).map((i) => bearing[i]) : [];
     if (ring.length < 3) return;
     const edges = ring.map((a, k) => [a, ring[(k + 1) % ring.length]]);
     const named = (word) => edges.findIndex(([a, b]) => word === `${a[0]}-${b[0]}` || word === `${b[0]}-${a[0]}`);
-    let limit = limiting.map(named).find((k) => k >= 0) ?? -1;
+    const limit = limiting.map(named).find((k) => k >= 0) ?? -1;
+    let limits = [limit];
     if (limit < 0) {
       const away = edges.map(([a, b]) => ((b[1] - a[1]) * (com[1] - a[2]) - (b[2] - a[2]) * (com[0] - a[1])) / Math.hypot(b[1] - a[1], b[2] - a[2]));
-      limit = away.indexOf(Math.min(...away));
+      const nearest = Math.min(...away);
+      limits = apart ? away.flatMap((way, k) => (way <= nearest + 0.5 * apart * span ? [k] : [])) : [away.indexOf(nearest)];
     }
     const middle = [1, 2, 3].map((k) => ring.reduce((sum, point) => sum + point[k], 0) / ring.length);
     edges.forEach(([a, b], k) => {
       this.area.triangle(a.slice(1, 4), b.slice(1, 4), middle, LOAD);
-      this.solid.bar(a.slice(1, 4), b.slice(1, 4), (k === limit ? 0.006 : 0.0035) * span, k === limit ? LIMIT : LOAD);
+      this.solid.bar(a.slice(1, 4), b.slice(1, 4), (limits.includes(k) ? 0.006 : 0.0035) * span, limits.includes(k) ? LIMIT : LOAD);
     });
   }
 

@@ -1,17 +1,8 @@
 /* Histograms of every measure, and how each wheel's load spreads over the study. */
+import { sized } from "./canvas.js";
 import { byId, element, fixed, number } from "./format.js";
 
 const BINS = 48;
-
-function context2d(canvas, width, height) {
-  const ratio = window.devicePixelRatio || 1;
-  canvas.width = Math.round(width * ratio);
-  canvas.height = Math.round(height * ratio);
-  Object.assign(canvas.style, { width: `${width}px`, height: `${height}px` });
-  const context = canvas.getContext("2d");
-  context.setTransform(ratio, 0, 0, ratio, 0, 0);
-  return context;
-}
 
 export class Plots {
   constructor(holder, state) {
@@ -47,7 +38,7 @@ export class Plots {
 
   histogram({ measure, canvas, ends, title }, width, height) {
     const { cases, chosen, measure: shown, scale } = this.state;
-    const context = context2d(canvas, width, height);
+    const context = sized(canvas, width, height);
     const values = cases.sorted(measure.name);
     title.classList.toggle("on", shown === measure);
     if (!values.length) {
@@ -95,7 +86,7 @@ export class Plots {
     const most = 1.05 * Math.max(...quantiles.map((q) => q[4]).filter(Number.isFinite), 1e-9);
     const [line, left] = [13, 34];
     const canvas = element("canvas");
-    const context = context2d(canvas, width, line * wheels.length + 14);
+    const context = sized(canvas, width, line * wheels.length + 14);
     const x = (value) => left + (value / most) * (width - left - 4);
     context.font = "11px system-ui, sans-serif";
     wheels.forEach((wheel, k) => {

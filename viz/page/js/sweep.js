@@ -1,4 +1,5 @@
 /* Charts of a sweep: lines over one quantity, maps over two; a click chooses the case. */
+import { sized } from "./canvas.js";
 import { decimalsFor, element, fixed, nice, number, ticks } from "./format.js";
 import { scaleOf } from "./colours.js";
 
@@ -233,14 +234,4 @@ function stroke(context, colour, width, points) {
 
 function cross(context, x, y) {
   for (const d of [-1, 1]) stroke(context, "#7b8792", 1, [[x - 3, y - 3 * d], [x + 3, y + 3 * d]]);
-}
-
-function sized(canvas, width, height) {
-  const ratio = window.devicePixelRatio || 1;
-  canvas.width = Math.round(width * ratio);
-  canvas.height = Math.round(height * ratio);
-  Object.assign(canvas.style, { width: `${width}px`, height: `${height}px` });
-  const context = canvas.getContext("2d");
-  context.setTransform(ratio, 0, 0, ratio, 0, 0);
-  return context;
 }

@@ -87,13 +87,18 @@ export class Viewer3d {
     const step = new this.THREE.Vector3(...to.map((value, i) => value - from[i]));
     viewer.camera.position.add(step);
     viewer.controls.target.add(step);
+    this.light(target, yaw, span);
+  }
+
+  /** Take the sun along; the camera stays. */
+  light(target, yaw, span) {
     Object.assign(this, { target, yaw, span });
     this.shine();
     const box = this.sun.shadow.camera;
     Object.assign(box, { left: -1.6 * span, right: 1.6 * span, top: 1.6 * span, bottom: -1.6 * span });
     Object.assign(box, { near: 0.5 * span, far: 9 * span });
     box.updateProjectionMatrix();
-    viewer.set_dirty();
+    this.viewer.set_dirty();
   }
 
   /** Put the sun high over the looker's left shoulder, so that what is seen is lit. */
