@@ -72,7 +72,7 @@ class DescriptionError(InputError):
 
 
 class SidecarError(InputError):
-    """A sidecar (`rover.yaml`) that cannot be used."""
+    """A file beside the URDF (`rover.yaml`, `control.yaml`) that cannot be used."""
 
 
 class MechanismError(InputError):

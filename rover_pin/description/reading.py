@@ -5,6 +5,7 @@ from __future__ import annotations
 import types
 import typing
 from collections.abc import Sequence
+from pathlib import Path as File
 from typing import Any, TypeVar
 
 import yaml
@@ -40,6 +41,37 @@ def parse_yaml(text: str, file: object) -> tuple[dict[str, Any], yaml.Node]:
         raise SidecarError("not a mapping of keys to values", file=file, cure="start with `schema: 1`")
     _refuse_twice(node, file, ())
     return data, node
+
+
+def read_text(path: File, cure: str) -> str:
+    """What a file says.
+
+    Raises:
+        SidecarError: there is none, or it cannot be read.
+    """
+    try:
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        what = "no such file" if isinstance(error, FileNotFoundError) else f"cannot be read: {error}"
+        raise SidecarError(what, file=path, cure=cure) from error
+
+
+def check_schema(data: dict[str, Any], schema: int, file: object) -> None:
+    """Refuse a mapping that states no `schema`, or another one.
+
+    Raises:
+        SidecarError: with the cure.
+    """
+    if "schema" not in data:
+        raise SidecarError("missing", file=file, element="schema", cure=f"start with `schema: {schema}`")
+    if data["schema"] != schema or isinstance(data["schema"], bool):
+        raise SidecarError(
+            "another schema",
+            file=file,
+            element="schema",
+            value=data["schema"],
+            cure=f"this version reads schema {schema}",
+        )
 
 
 def _refuse_twice(node: yaml.Node, file: object, path: Path) -> None:

@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Discriminator, Field, FiniteFloat, T
 
 from rover_pin.description.formulas import Formula, Path, fill_in, formula_of, formulas_in
 from rover_pin.description.parameters import ParameterSpec
-from rover_pin.description.reading import dotted, parse_yaml, place, validated
+from rover_pin.description.reading import check_schema, dotted, parse_yaml, place, read_text, validated
 from rover_pin.description.specs import (
     BellySpec,
     Direction,
@@ -81,16 +81,7 @@ def _read(text: str, file: object, values: tuple[tuple[str, float], ...] | None)
     data, node = parse_yaml(text, file)
     if any(key in data for key in _GEPETTO) and "schema" not in data:
         data = _from_gepetto(data, file)
-    if "schema" not in data:
-        raise SidecarError("missing", file=file, element="schema", cure=f"start with `schema: {SCHEMA}`")
-    if data["schema"] != SCHEMA or isinstance(data["schema"], bool):
-        raise SidecarError(
-            "another schema",
-            file=file,
-            element="schema",
-            value=data["schema"],
-            cure=f"this version reads schema {SCHEMA}",
-        )
+    check_schema(data, SCHEMA, file)
     present = {key: value for key, value in data.items() if value is not None}
     if any(formulas_in(present)):
         declared = validated(_Declared, {"parameters": present.get("parameters", {})}, node, file).parameters
@@ -120,11 +111,7 @@ def load_sidecar(path: File) -> tuple[Sidecar, str]:
     Raises:
         SidecarError: as `read_sidecar`, or the file cannot be read.
     """
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        what = "no such file" if isinstance(error, FileNotFoundError) else f"cannot be read: {error}"
-        raise SidecarError(what, file=path, cure="give the path of a rover.yaml") from error
+    text = read_text(path, "give the path of a rover.yaml")
     return read_sidecar(text, path), text
 
 
