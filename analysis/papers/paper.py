@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from rover_pin.analysis.papers.chart import Chart
@@ -11,6 +11,7 @@ from rover_pin.analysis.papers.finding import VERDICTS, Finding
 
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
+    from rover_pin.simulation.run import Run
 
 
 @dataclass(frozen=True)
@@ -20,10 +21,12 @@ class Results:
     Attributes:
         findings: row by row, in the paper's order.
         charts: its figures.
+        runs: motions by name, where the paper has some.
     """
 
     findings: tuple[Finding, ...]
     charts: tuple[Chart, ...] = ()
+    runs: Mapping[str, Run] = field(default_factory=dict)
 
     @property
     def verdicts(self) -> dict[str, int]:

@@ -23,6 +23,9 @@ def reproduce(
     png: Annotated[
         Path | None, typer.Option(help="Write each figure as a picture there.", metavar="DIR")
     ] = None,
+    motion: Annotated[
+        Path | None, typer.Option(help="Write a page that plays the paper's motions.", metavar="FILE")
+    ] = None,
     json: Json = False,
 ) -> int:
     """A paper's figures beside ours, and which are not reproduced and why."""
@@ -32,7 +35,7 @@ def reproduce(
     from rover_pin.errors import InputError
 
     if paper is None:
-        if html or png:
+        if html or png or motion:
             raise InputError(
                 "a page or pictures of which paper", cure="rover-pin reproduce PAPER --html FILE"
             )
@@ -40,11 +43,18 @@ def reproduce(
         return 0
     found = find(paper)
     check_outputs(html)
+    check_outputs(motion)
     if png is not None and png.exists() and not png.is_dir():
         raise InputError("is not a folder", file=png, cure="name a folder for the pictures")
     announce_compilation(batch=True)
     results = found.results()
+    if motion is not None and not results.runs:
+        raise InputError("has no motions", element=found.key, cure="leave --motion out")
     written = _save(found, results, html, png) if html or png else []
+    if motion is not None:
+        from rover_pin.viz import save_motion_html
+
+        written.append(save_motion_html(results.runs, motion, title=found.title))
     if json:
         print_json([finding.as_row() for finding in results.findings])
     else:
