@@ -9,7 +9,7 @@ import numpy as np
 
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
-from rover_pin.numerics import Array
+from rover_pin.numerics import Array, cross
 
 if TYPE_CHECKING:
     from rover_pin.kinematics.instant import Bodies
@@ -34,9 +34,9 @@ def advance(at: Instant, velocity: Array, dt: float) -> Instant:
 class Sliding:
     """How far every wheel slid since the start.
 
-    A wheel that rolls lays as much of its rim on the ground as the place of contact moves over it. The
-    place's motion in the world, less its motion on the wheel's body turned by the mean of its two
-    orientations, is what slid: exact to third order in a step.
+    A wheel that rolls lays as much of its rim on the ground as its centre moves over it. The centre's motion,
+    and the wheel's turn times the lever from centre to place of contact (the mean of before and after), make
+    what slid: from two places, exact for steady rolling and to third order in a step else.
 
     Args:
         at: the start.
@@ -56,18 +56,35 @@ class Sliding:
         if lifted not in self._standing:
             stands = [name not in lifted for name in self.bodies.names]
             self._standing[lifted] = np.array(stands, dtype=np.float64)[:, None]
-        points, rotations, on_body = self._look(at)
+        levers, rotations, centers = self._look(at)
         before, turned, was = self._last
-        moved = points - before - np.einsum("sij,sj->si", 0.5 * (turned + rotations), on_body - was)
+        turns = _turn_between(turned, rotations)
+        moved = centers - was + cross(turns, 0.5 * (before + levers))
         normals = at.contacts[:, 4:7]
         moved -= normals * np.einsum("sj,sj->s", normals, moved)[:, None]
         self.slid += moved * self._standing[lifted]
-        self._last = points, rotations, on_body
+        self._last = levers, rotations, centers
         return np.asarray(np.linalg.norm(self.slid, axis=1))
 
     def _look(self, at: Instant) -> tuple[Array, Array, Array]:
-        """Places of contact (s, 3) m, orientations (s, 3, 3) of the bodies that touch, the places on them."""
-        points, placed = at.contacts[:, 1:4], at.placed
-        frames = np.array([placed[joint].homogeneous for joint in self.bodies.rolling_joints.tolist()])
-        rotations = frames[:, :3, :3]
-        return points, rotations, np.einsum("sji,sj->si", rotations, points - frames[:, :3, 3])
+        """Levers (s, 3) m from centre to contact, orientations (s, 3, 3), centres (s, 3) m."""
+        placed = at.placed
+        joints = self.bodies.rolling_joints.tolist()
+        rotations = np.array([placed[joint].rotation for joint in joints])
+        return at.contacts[:, 1:4] - at.centers, rotations, at.centers
+
+
+def _turn_between(before: Array, after: Array) -> Array:
+    """(s, 3) rad, world: rotation vectors between orientations (s, 3, 3) less than a quarter turn apart."""
+    turned = np.einsum("sij,skj->sik", after, before)
+    half = 0.5 * np.column_stack(
+        [
+            turned[:, 2, 1] - turned[:, 1, 2],
+            turned[:, 0, 2] - turned[:, 2, 0],
+            turned[:, 1, 0] - turned[:, 0, 1],
+        ]
+    )
+    sine = np.linalg.norm(half, axis=1)
+    share = np.where(sine > 1e-12, np.arcsin(np.minimum(sine, 1.0)) / np.maximum(sine, 1e-300), 1.0)
+    vectors: Array = half * share[:, None]
+    return vectors

@@ -21,6 +21,9 @@ PRECISION = 1e-9
 ACCEPTED = 1e-7
 """m/s or rad/s that rows may be missed by; share of the gradient's size that stationarity may."""
 
+WEIGHT = 1e3
+"""Times the cost: the solver's precision is absolute, and what damping alone decides would be left vague."""
+
 OPEN = 1e20
 """ProxQP's word for no bound."""
 
@@ -73,11 +76,14 @@ def _attempt(program: Program, guess: Any, iterations: int) -> Answer:
     settings.max_iter_in = ITERATIONS
     settings.eps_abs = PRECISION
     settings.eps_rel = 0.0
+    parts[0] *= WEIGHT
+    parts[1] *= WEIGHT
     qp.init(*parts)
     qp.solve()
     found = qp.results
+    y_part, z_part = found.y / WEIGHT, found.z / WEIGHT
     x, y, z = expand(
-        p.hessian, p.gradient, p.equations, p.right, p.matrix, p.pins, free, rest, found.x, found.y, found.z
+        p.hessian, p.gradient, p.equations, p.right, p.matrix, p.pins, free, rest, found.x, y_part, z_part
     )
     primal = max(
         outside(p.equations, p.right, p.right, x),

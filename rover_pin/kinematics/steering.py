@@ -158,7 +158,7 @@ def _carried(at: Instant, which: np.ndarray[tuple[int], np.dtype[np.int64]]) -> 
 def _nearest(at: Instant, wheel: str, joint: str, here: float, turn: float) -> float:
     column = at.rover.column[joint]
     low, high = float(at.rover.lower[column]), float(at.rover.upper[column])
-    tried = [here + turn + k * math.pi for k in (-2, -1, 0, 1, 2)]
+    tried = [here + turn + k * math.pi for k in (0, -2, 2, -1, 1)]  # of two alike, rolling forward
     allowed = [angle for angle in tried if low - 1e-9 <= angle <= high + 1e-9]
     if not allowed:
         raise InputError(
@@ -167,7 +167,7 @@ def _nearest(at: Instant, wheel: str, joint: str, here: float, turn: float) -> f
             value=f"{math.degrees(here + turn):.4g} deg",
             cure=f"the joint reaches from {math.degrees(low):.4g} to {math.degrees(high):.4g} deg",
         )
-    return float(np.clip(min(allowed, key=lambda angle: abs(angle - here)), low, high))
+    return float(np.clip(min(allowed, key=lambda angle: round(abs(angle - here), 9)), low, high))
 
 
 def turning_centre(at: Instant) -> Array:

@@ -30,7 +30,7 @@ def ground(word):
 def resting(name, word):
     """An instant of a rover at rest, off the symmetric place."""
     terrain = ground(word)
-    at = (9.3, 10.4, 0.7) if word.startswith("rough") else (0.2, -0.1, 0.7)
+    at = (0.3, 0.4, 0.7) if word.startswith("rough") else (0.2, -0.1, 0.7)
     stance = rp.settle(rover(name), terrain, x=at[0], y=at[1], yaw=at[2])
     assert stance.settled, (name, word, stance.reason)
     return Bodies(rover(name), terrain).at(np.array(stance.configuration))

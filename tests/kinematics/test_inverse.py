@@ -123,7 +123,7 @@ def test_whatever_is_asked(forward, left, yaw, rate, word):
     for coupling in at.rover.couplings:
         assert coupling.row @ at.q - coupling.offset == pytest.approx(0.0, abs=1e-8)
     way = np.linalg.norm(at.q[:2] - start.q[:2])
-    assert np.max(np.abs(at.contacts[:, 0])) < 1e-6 + 2e-4 * way * (word != "flat")
+    assert np.max(np.abs(at.contacts[:, 0])) < 2e-6 + 3e-4 * way
 
 
 def test_tasks_reach_their_goals():
@@ -133,12 +133,13 @@ def test_tasks_reach_their_goals():
     for _ in range(200):
         at = advance(at, inverse.solve(at, goals, (*usual_limits(), still)).velocity, 0.01)
     assert goals[0].aim(at, 0.01).target[0] == pytest.approx(0.0, abs=1e-4)
-    goals = [CenterOfMass((at.com[0] + 0.05, at.com[1] + 0.04, None), gain=0.2)]
-    wanted = at.com[:2] + (0.05, 0.04)
+    wanted = at.com[:2] + 0.05 * np.array([np.cos(at.heading), np.sin(at.heading)])
+    goals = [CenterOfMass((*wanted, None), gain=0.2)]
     for _ in range(300):
         at = advance(at, inverse.solve(at, goals, usual_limits()).velocity, 0.01)
     assert at.com[:2] == pytest.approx(wanted, abs=1e-4)
-    wanted = at.frame("base_link")[1] + (0.03, 0.0, 0.02)
+    along = np.array([np.cos(at.heading), np.sin(at.heading), 0.0])
+    wanted = at.frame("base_link")[1] + 0.03 * along + (0.0, 0.0, 0.02)
     for _ in range(300):
         found = inverse.solve(at, [FrameGoal("base_link", wanted)], usual_limits())
         at = advance(at, found.velocity, 0.01)
@@ -195,10 +196,12 @@ def test_refusals():
         (lambda: FrameGoal("base_link", rotation=np.ones((3, 3))), "rotation: is no rotation matrix"),
         (lambda: CenterOfMass((None, None, None)), "centre of mass: needs x, y, z, one of them a number"),
         (lambda: WheelLift("RF"), "lift of RF: needs a rate or a height, one of them"),
-        (lambda: InverseKinematics(rover("hit_mrii"), ground("flat"), damping=0.0), "damping: must be above 0"),
+        (lambda: InverseKinematics(rover("rigid4"), ground("flat"), damping=0.0), "damping: must be above 0"),
         (lambda: inverse.solve(at, [BaseTwist(forward=1.0)], dt=0.0), r"dt: must be above 0 s \(got 0.0\)"),
-        (lambda: inverse.solve(at, [Rates({"L_akt": 1.0})]), r"rates: no coordinate of that name \(got 'L_akt'\); did"),
-        (lambda: inverse.solve(at, [], (Clutch({"L_act": 0.0}),)), r"clutch: is no joint that can be locked \(got 'L_act'\)"),
+        (lambda: inverse.solve(at, [Rates({"L_akt": 1.0})]),
+         r"rates: no coordinate of that name \(got 'L_akt'\); did you mean"),
+        (lambda: inverse.solve(at, [], (Clutch({"L_act": 0.0}),)),
+         r"clutch: is no joint that can be locked \(got 'L_act'\)"),
         (lambda: inverse.solve(at, [], (Between("gauge", unit(at, "L_act"), np.nan, 1.0),)),
          "gauge: has an entry that is no finite number; a rate, a measured value"),
     ):  # fmt: skip

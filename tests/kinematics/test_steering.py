@@ -130,5 +130,6 @@ def test_a_wheel_that_cannot_be_steered_there(make):
     with pytest.raises(InputError) as caught:
         steering_for(at, Twist.about(0.0, 2.0, 0.1))
     assert str(caught.value) == (
-        "a_st: a cannot be steered to where it has to go (got '45 deg'); the joint reaches from -11.46 to 11.46 deg"
+        "a_st: a cannot be steered to where it has to go (got '45 deg');"
+        " the joint reaches from -11.46 to 11.46 deg"
     )
