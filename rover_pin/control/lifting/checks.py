@@ -10,6 +10,7 @@ import numpy as np
 from rover_pin.control.lifting.hoist import Hoist, Pose
 from rover_pin.control.lifting.result import Refusal, RefusalStatus
 from rover_pin.statics.adapt import OPEN
+from rover_pin.statics.loads import TOUCHING
 from rover_pin.statics.stance import Stance, Status
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ def checked(hoist: Hoist, pose: Pose, goal: float, reserve: float) -> Stance | R
         goal: their height, for words [m].
         reserve: N that every standing wheel must carry at least.
     """
-    found = _limits(hoist, pose, goal) or _penetration(hoist, pose, goal)
+    found = _limits(hoist, pose, goal) or _contact(hoist, pose, goal)
     found = found or _loads(hoist, pose, pose.loads, goal, reserve)
     if found is not None:
         return found
@@ -79,14 +80,21 @@ def _limits(hoist: Hoist, pose: Pose, goal: float) -> Refusal | None:
     return None
 
 
-def _penetration(hoist: Hoist, pose: Pose, goal: float) -> Refusal | None:
-    """A wheel that is none of the pose's supports, in the ground."""
+def _contact(hoist: Hoist, pose: Pose, goal: float) -> Refusal | None:
+    """A wheel in the ground, or one off it that should stand (supports more than the pose can satisfy)."""
     deepest = int(np.argmin(pose.slack))
-    if pose.slack[deepest] >= OPEN:
-        return None
     name = hoist.names[deepest]
-    what = f"{_when(hoist, goal)} {name} would be {-1e3 * pose.slack[deepest]:.3g} mm in the ground"
-    return refuse(hoist, RefusalStatus.GROUNDED, what, name, pose=pose)
+    if pose.slack[deepest] < OPEN:
+        what = f"{_when(hoist, goal)} {name} would be {-1e3 * pose.slack[deepest]:.3g} mm in the ground"
+        return refuse(hoist, RefusalStatus.GROUNDED, what, name, pose=pose)
+    highest = int(hoist.standing[np.argmax(pose.slack[hoist.standing])])
+    if pose.slack[highest] > TOUCHING:
+        name = hoist.names[highest]
+        what = (
+            f"{_when(hoist, goal)} {name} would leave the ground too, by {1e3 * pose.slack[highest]:.3g} mm"
+        )
+        return refuse(hoist, RefusalStatus.OUT_OF_REACH, what, name, pose=pose)
+    return None
 
 
 def _loads(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -47,33 +48,49 @@ def climb(hoist: Hoist, height: float, step: float, reserve: float) -> Climb | R
 
     Args:
         hoist: the lift.
-        height: gap wanted of every lifted wheel [m].
+        height: wanted of every lifted wheel [m].
         step: largest rise between two poses that are looked at [m].
         reserve: N that every standing wheel must carry at least.
     """
-    pose = hoist.pose(hoist.start, np.array(hoist.present.configuration))
+    start = hoist.pose(hoist.start, np.array(hoist.present.configuration))
+    if start is None:
+        return refuse_missing(hoist, 0.0)
+    off = raised(hoist, start, np.full(len(hoist.lifted), LIFT_OFF), _gaps(hoist))
+    if isinstance(off, Refusal):
+        return off
+    rise = height - off.heights
+    count = max(0, int(np.ceil(float(np.max(rise)) / step - 1e-9)))
     poses: list[Pose] = []
     stances: list[Stance] = []
     reached = 0.0
-    for goal in _goals(height, step):
-        found = refuse_missing(hoist, goal) if pose is None else raised(hoist, pose, goal)
-        stance = found if isinstance(found, Refusal) else checked(hoist, found, goal, reserve)
-        if isinstance(found, Refusal) or isinstance(stance, Refusal):
-            refusal = found if isinstance(found, Refusal) else stance
-            assert isinstance(refusal, Refusal)
-            return replace(refusal, height=reached, stances=tuple(stances))
-        pose, reached = found, goal
-        poses.append(found)
-        stances.append(stance)
+    for k in range(count + 1):
+        goal = off.heights + rise * k / max(count, 1)
+        found = _stood(hoist, off if k == 0 else raised(hoist, poses[-1], goal, _heights), goal, reserve)
+        if isinstance(found, Refusal):
+            return replace(found, height=reached, stances=tuple(stances))
+        poses.append(found[0])
+        stances.append(found[1])
+        reached = float(np.min(goal))
     least, wheel = min((n, name) for each in stances for name, n in standing_loads(hoist, each).items())
     return Climb(tuple(poses), tuple(stances), least, wheel)
 
 
-def _goals(height: float, step: float) -> list[float]:
-    """Heights to look at: just off the ground, then evenly up to the top."""
-    count = max(1, int(np.ceil(height / step - 1e-9)))
-    rising = [height * k / count for k in range(1, count + 1)]
-    return [LIFT_OFF, *rising] if rising[0] > LIFT_OFF else rising
+def _stood(hoist: Hoist, pose: Pose | Refusal, goal: Array, reserve: float) -> tuple[Pose, Stance] | Refusal:
+    """A pose with its stance, where it is one."""
+    if isinstance(pose, Refusal):
+        return pose
+    stance = checked(hoist, pose, float(np.max(goal)), reserve)
+    return stance if isinstance(stance, Refusal) else (pose, stance)
+
+
+def _gaps(hoist: Hoist) -> Callable[[Pose], Array]:
+    """Reads the lifted wheels' gaps to the nearest ground."""
+    return lambda pose: pose.slack[hoist.lifted]
+
+
+def _heights(pose: Pose) -> Array:
+    """The lifted wheels' heights over the ground below them."""
+    return pose.heights
 
 
 def refuse_missing(hoist: Hoist, goal: float) -> Refusal:
@@ -83,44 +100,36 @@ def refuse_missing(hoist: Hoist, goal: float) -> Refusal:
     return refuse(hoist, RefusalStatus.OUT_OF_REACH, what)
 
 
-def raised(hoist: Hoist, pose: Pose, goal: float) -> Pose | Refusal:
-    """The pose with every lifted wheel `goal` over the ground, by Newton on the rockers' angles."""
-    try:
-        slopes = _slopes(hoist, pose)
-    except ArithmeticError:
-        return refuse_missing(hoist, goal)
+def raised(hoist: Hoist, pose: Pose, goal: Array, read: Callable[[Pose], Array]) -> Pose | Refusal:
+    """The pose where `read` gives `goal` (m,), by Newton on the rockers' angles, slopes by Broyden."""
+    top = float(np.max(goal))
+    slopes = _slopes(hoist, pose, read)
+    if slopes is None:
+        return refuse_missing(hoist, top)
     if np.min(np.linalg.svd(slopes, compute_uv=False)) < _FLAT:
-        rockers = " and ".join(hoist.rockers)
-        wheels = " and ".join(hoist.question.wheels)
-        height = 1e3 * float(np.min(pose.gaps))
-        what = f"turning {rockers} lifts {wheels} no further than {height:.0f} mm"
-        return refuse(hoist, RefusalStatus.OUT_OF_REACH, what, hoist.rockers[0])
+        rockers, wheels = " and ".join(hoist.rockers), " and ".join(hoist.question.wheels)
+        what = f"turning {rockers} lifts {wheels} no further than {1e3 * float(np.min(pose.heights)):.0f} mm"
+        return refuse(hoist, RefusalStatus.OUT_OF_REACH, what, hoist.rockers[0], pose=pose)
     for _ in range(_STEPS):
-        missing = goal - pose.gaps
+        missing = goal - read(pose)
         if np.max(np.abs(missing)) < _CLOSE:
             return pose
-        turn = np.linalg.solve(slopes, missing)
+        turn = np.linalg.lstsq(slopes, missing, rcond=1e-9)[0]
         turn *= min(1.0, _LARGEST / float(np.max(np.abs(turn))))
         found = hoist.pose(pose.angles + turn, pose.q)
         if found is None:
             break
-        slopes = slopes + np.outer(found.gaps - pose.gaps - slopes @ turn, turn) / (turn @ turn)  # Broyden
+        slopes = slopes + np.outer(read(found) - read(pose) - slopes @ turn, turn) / (turn @ turn)
         pose = found
-        if np.linalg.matrix_rank(slopes) < len(turn):
-            break
-    return refuse_missing(hoist, goal)
+    return refuse_missing(hoist, top)
 
 
-def _slopes(hoist: Hoist, pose: Pose) -> Array:
-    """(m, m) rise of each lifted wheel [m] per rad of each rocker, by central differences.
-
-    Raises:
-        ArithmeticError: no pose beside this one.
-    """
+def _slopes(hoist: Hoist, pose: Pose, read: Callable[[Pose], Array]) -> Array | None:
+    """(m, m) rise of each lifted wheel [m] per rad of each rocker, by central differences."""
     columns = []
     for nudge in _NUDGE * np.eye(len(pose.angles)):
-        sides = [hoist.pose(pose.angles + sign * nudge, pose.q) for sign in (1.0, -1.0)]
-        if sides[0] is None or sides[1] is None:
-            raise ArithmeticError
-        columns.append((sides[0].gaps - sides[1].gaps) / (2.0 * _NUDGE))
+        above, below = (hoist.pose(pose.angles + sign * nudge, pose.q) for sign in (1.0, -1.0))
+        if above is None or below is None:
+            return None
+        columns.append((read(above) - read(below)) / (2.0 * _NUDGE))
     return np.array(columns).T

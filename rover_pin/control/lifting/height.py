@@ -40,8 +40,9 @@ def lift_height(
     """Height of a wheel over the ground while its side's rocker turns with the clutch engaged.
 
     What the HIT-MRII paper gives as its equations 8 to 10 for front, middle and rear wheels (they did not
-    survive in our copy): here the gap of the wheel in the pose in which all others touch, solved from the
-    contacts, for any rover and terrain. Whether the loads allow that pose is for `plan_lift`.
+    survive in our copy): here the height of the wheel's lowest point over the ground under its centre, in the
+    pose in which all others touch, solved from the contacts, for any rover and terrain. Whether the loads
+    allow that pose is for `plan_lift`.
 
     Args:
         rover: the rover.
@@ -90,7 +91,7 @@ def _follow(hoist: Hoist, angles: Array, order: Integers, heights: Array) -> Non
             pose = hoist.pose(np.array([now + (goal - now) * k / strides]), q)
             if pose is None:
                 return
-            q, heights[row] = pose.q, pose.gaps[0]
+            q, heights[row] = pose.q, pose.heights[0]
         now = goal
 
 

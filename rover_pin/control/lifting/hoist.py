@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rover_pin.kinematics.instant import Bodies
+from rover_pin.kinematics.tasks.wheel_lift import height
 from rover_pin.numerics import Array
 from rover_pin.statics.ground import Footing
 from rover_pin.statics.held import free_coordinates, held_joints
@@ -32,8 +34,9 @@ class Pose:
     Attributes:
         angles: (m,) of the rockers that turn [rad].
         q: (nv,) configuration.
-        gaps: (m,) of the lifted wheels [m]; negative where one would be in the ground.
-        slack: (s,) gap of every wheel and foot [m].
+        slack: (s,) gap of every wheel and foot to the nearest ground [m].
+        heights: (m,) of the lifted wheels' lowest points over the ground under their centres [m]; negative
+            where one would be in the ground. Beside a step the gap is the smaller of the two.
         loads: per standing wheel [N], negative where it would have to be held down; empty where the supports
             are more than equilibrium determines.
         problem: the equations.
@@ -43,8 +46,8 @@ class Pose:
 
     angles: Array
     q: Array
-    gaps: Array
     slack: Array
+    heights: Array
     loads: Mapping[str, float]
     problem: Problem
     landing: Landing
@@ -71,6 +74,7 @@ class Hoist:
         self.standing: Integers = np.array(standing, dtype=np.int64)
         self.rockers = tuple(side.rocker for side in question.sides)
         self.start: Array = np.array([present.joints[rocker] for rocker in self.rockers])
+        self._bodies = Bodies(rover, question.terrain)
         self._held = held_joints(rover, self.locked)
         self._values = {**present.joints, **clutches}
 
@@ -89,13 +93,14 @@ class Hoist:
         landing = land(problem, z, ask.terrain, active, loops, window=THOROUGH)
         if landing is None:
             return None
-        rows = problem.state(landing.z, ask.terrain, THOROUGH).slack  # the landing's are one step old
+        q = problem.reduction.expand(landing.z)
+        at = self._bodies.at(q)
         loads = {self.names[row]: float(landing.multipliers[row]) for row in active}
         return Pose(
             angles=angles,
-            q=problem.reduction.expand(landing.z),
-            slack=rows[: len(self.names)],
-            gaps=rows[self.lifted],
+            q=q,
+            slack=at.contacts[:, 0],
+            heights=np.array([height(at, row) for row in self.lifted.tolist()]),
             loads=loads if len(active) == len(self.standing) else {},
             problem=problem,
             landing=landing,

@@ -51,7 +51,7 @@ def plan_lift(
         rover: the rover.
         layout: its sides.
         wheels: names, at most one a side.
-        height: gap wanted of every lifted wheel over the ground [m].
+        height: wanted of every lifted wheel's lowest point over the ground under its centre [m].
         joints: present values of driven joints [rad or m] over `posture`, as a stance's `joints`. Passive
             joints follow from the statics; a clutch's value given here is where it is locked.
         terrain: default flat.
@@ -111,7 +111,7 @@ def lift_from(
         rockers=MappingProxyType(dict(zip(hoist.rockers, top.angles.tolist(), strict=True))),
         directions=MappingProxyType({s: "folds" if shrinks else "unfolds" for s, shrinks in shorter.items()}),
         clearance=clearance_of(present),
-        heights=MappingProxyType(dict(zip(question.wheels, top.gaps.tolist(), strict=True))),
+        heights=MappingProxyType(dict(zip(question.wheels, top.heights.tolist(), strict=True))),
         loads=stance.loads,
         least_load=found.least_load,
         least_wheel=found.least_wheel,

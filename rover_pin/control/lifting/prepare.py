@@ -42,7 +42,7 @@ def prepare_lift(
         rover: the rover.
         layout: its sides.
         wheels: names, at most one a side.
-        height: gap wanted of every lifted wheel over the ground [m].
+        height: wanted of every lifted wheel, as for `plan_lift` [m].
         joints: present values of driven joints [rad or m] over `posture`.
         terrain: default flat.
         reserve: load that every standing wheel must keep on the way up [N].

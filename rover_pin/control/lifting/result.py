@@ -72,7 +72,7 @@ class LiftPlan:
         directions: `folds` or `unfolds` per side that reshapes: whether its front and rear wheel come nearer
             to each other.
         clearance: of the lowest belly point over the terrain at `start`; None without belly points.
-        heights: gap of each lifted wheel at the top.
+        heights: of each lifted wheel at the top, over the ground under its centre.
         loads: per wheel at the top.
         least_load: the least load of a standing wheel on the way up, top included.
         least_wheel: that wheel.
