@@ -9,7 +9,6 @@ import numpy as np
 
 from rover_pin.control.lifting.hoist import Hoist, Pose
 from rover_pin.control.lifting.result import Refusal, RefusalStatus
-from rover_pin.statics.adapt import OPEN
 from rover_pin.statics.loads import TOUCHING
 from rover_pin.statics.stance import Stance, Status
 
@@ -18,6 +17,10 @@ if TYPE_CHECKING:
 
 _ZERO = 1e-8
 """Share of the weight within which a load counts as zero."""
+
+
+_STAYS = 1e-5
+"""m or rad: a pose that the statics moves further is none in which the rover stays."""
 
 
 def refuse(
@@ -52,6 +55,9 @@ def checked(hoist: Hoist, pose: Pose, goal: float, reserve: float) -> Stance | R
         status = RefusalStatus.GROUNDED if grounded else RefusalStatus.NO_STANCE
         reason = f"{_when(hoist, goal)} {stance.reason}"
         return refuse(hoist, status, reason, stance.limiting, pose=pose)
+    if np.max(np.abs(stance.configuration - pose.q)) > _STAYS:
+        what = f"{_when(hoist, goal)} the rover does not stay: it balances on the other wheels and would move"
+        return refuse(hoist, RefusalStatus.NO_STANCE, what, pose=pose)
     return _loads(hoist, pose, standing_loads(hoist, stance), goal, reserve) or stance
 
 
@@ -81,19 +87,19 @@ def _limits(hoist: Hoist, pose: Pose, goal: float) -> Refusal | None:
 
 
 def _contact(hoist: Hoist, pose: Pose, goal: float) -> Refusal | None:
-    """A wheel in the ground, or one off it that should stand (supports more than the pose can satisfy)."""
+    """A wheel that should stand and does not (supports too many for any pose), or one in the ground."""
+    worst = int(hoist.standing[np.argmax(np.abs(pose.slack[hoist.standing]))])
+    off = float(pose.slack[worst])
+    if abs(off) > TOUCHING:
+        name, where = hoist.names[worst], "off the ground" if off > 0.0 else "in it"
+        what = f"{_when(hoist, goal)} the other wheels cannot all stand: {name} would be"
+        reason = f"{what} {1e3 * abs(off):.3g} mm {where}"
+        return refuse(hoist, RefusalStatus.OUT_OF_REACH, reason, name, pose=pose)
     deepest = int(np.argmin(pose.slack))
-    name = hoist.names[deepest]
-    if pose.slack[deepest] < OPEN:
+    if pose.slack[deepest] < -TOUCHING:
+        name = hoist.names[deepest]
         what = f"{_when(hoist, goal)} {name} would be {-1e3 * pose.slack[deepest]:.3g} mm in the ground"
         return refuse(hoist, RefusalStatus.GROUNDED, what, name, pose=pose)
-    highest = int(hoist.standing[np.argmax(pose.slack[hoist.standing])])
-    if pose.slack[highest] > TOUCHING:
-        name = hoist.names[highest]
-        what = (
-            f"{_when(hoist, goal)} {name} would leave the ground too, by {1e3 * pose.slack[highest]:.3g} mm"
-        )
-        return refuse(hoist, RefusalStatus.OUT_OF_REACH, what, name, pose=pose)
     return None
 
 
