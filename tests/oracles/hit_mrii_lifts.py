@@ -44,7 +44,7 @@ class Lift:
         return 4 + sum(clutch is None for clutch in self.clutches)
 
     def bodies(self, xi):
-        """Heights of wheel centres and masses, rise of the axis; xi = (z, pitch, roll, differential, bogies)."""
+        """Heights of wheels and masses, rise of the axis; xi = (z, pitch, roll, differential, bogies)."""
         m = self.machine
         height, pitch, roll, differential, *open_bogies = xi
         bogies = list(open_bogies)
