@@ -191,3 +191,13 @@ def test_clutches_that_are_not_engaged(rates, tolerance, message):
     with pytest.raises(InputError) as caught:
         engage(["R_bogie"], rates, tolerance)
     assert str(caught.value) == message
+
+
+def test_a_rocker_that_lifts_nothing(rover):
+    left, right = SIDES.sides
+    steered = Layout(left, Side("right", right.wheels, right.hinge, "RF_st", right.clutch))
+    found = plan_lift(rover, steered, ["RF"], 0.1, posture={"clearance": 0.485})
+    assert (found.status, found.limiting) == (RefusalStatus.OUT_OF_REACH, "RF_st")
+    assert found.reason == "turning RF_st lifts RF no further than 0 mm"
+    with pytest.raises(InputError, match="RF_st: this rocker does not raise or lower the chassis"):
+        prepare_lift(rover, steered, ["LF"], 0.1, reserve=50.0)
