@@ -108,7 +108,8 @@ def raised(hoist: Hoist, pose: Pose, goal: Array, read: Callable[[Pose], Array])
         return refuse_missing(hoist, top)
     if np.min(np.linalg.svd(slopes, compute_uv=False)) < _FLAT:
         rockers, wheels = " and ".join(hoist.rockers), " and ".join(hoist.question.wheels)
-        what = f"turning {rockers} lifts {wheels} no further than {1e3 * float(np.min(pose.heights)):.0f} mm"
+        most = 1e3 * max(float(np.min(pose.heights)), 0.0)
+        what = f"turning {rockers} lifts {wheels} no further than {most:.0f} mm"
         return refuse(hoist, RefusalStatus.OUT_OF_REACH, what, hoist.rockers[0], pose=pose)
     for _ in range(_STEPS):
         missing = goal - read(pose)
