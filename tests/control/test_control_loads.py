@@ -50,10 +50,10 @@ def test_gradient_of_the_closed_form(hit, at, constraints, raised, still):
     rows = constraints["load_difference"].gradient(Now(at, still, still, (), raised.loads))
     rockers = [hit.column["L_act"], hit.column["R_act"]]
     assert rows.shape == (1, hit.model.nv)
-    assert rows[0, rockers].sum() == pytest.approx(slope, rel=1e-4)
+    assert rows[0, rockers].sum() == pytest.approx(slope, rel=5e-4)
     assert np.flatnonzero(rows[0]).tolist() == sorted(rockers)
     deviation = constraints["load_deviation"].gradient(Now(at, still, still, (), raised.loads))
-    assert deviation[0, rockers].sum() == pytest.approx(2 / 3 * slope, rel=1e-4)  # mean - front, 4 : 2 wheels
+    assert deviation[0, rockers].sum() == pytest.approx(2 / 3 * slope, rel=5e-4)  # mean - front, 4 : 2 wheels
 
 
 @pytest.mark.parametrize(
