@@ -154,14 +154,14 @@ def test_rocker_speed_at_a_standstill(hit, level, raised, still):
 
 
 @pytest.mark.parametrize(
-    ("lifted", "locked"), [((), ()), (("RB",), ("R_bogie",)), (("LM",), ("L_bogie",))]
+    ("lifted", "locked"), [((), ()), (("RF",), ("R_bogie",)), (("LM",), ("L_bogie",))]
 )
 def test_reshaping_by_statics(hit, constraints, still, lifted, locked):
     """d(d_fm)/dw from stances with one rocker a little on, uneven ground: no Jacobian in it."""
     stations, bodies = constraints["rocker_speed"].stations, Bodies(hit, ROUGH)
     start = rp.settle(hit, ROUGH, x=0.3, y=-0.2, yaw=0.4, joints={"L_act": 0.35, "R_act": 0.3})
     passive = {name: start.joints[name] for name in locked}
-    away = {"RB": {"R_act": 0.25}, "LM": {"L_act": 0.45}}
+    away = {"RF": {"R_act": 0.25}, "LM": {"L_act": 0.45}}
     rockers = {"L_act": 0.35, "R_act": 0.3} | {k: v for w in lifted for k, v in away[w].items()}
 
     def stand(side, more):
