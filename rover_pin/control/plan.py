@@ -16,7 +16,7 @@ from rover_pin.control.motion_constraints import CONSTRAINTS
 from rover_pin.control.threshold import Threshold
 from rover_pin.description.reading import check_schema, parse_yaml, place, read_text, validated
 from rover_pin.description.specs import Positive, Spec
-from rover_pin.errors import InputError, SidecarError, nearest
+from rover_pin.errors import InputError, SidecarError
 
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
@@ -103,9 +103,11 @@ class Plan:
         """
         if mode not in self.thresholds:
             raise InputError(
-                "no thresholds for this mode", file=self.file, element=f"modes.{mode}",
-                cure=f"state them; {nearest(mode, self.thresholds)}",
-            )  # fmt: skip
+                "no thresholds for this mode",
+                file=self.file,
+                element=f"modes.{mode}",
+                cure=f"state them; there are {', '.join(self.thresholds)}",
+            )
         return self.thresholds[mode]
 
 
@@ -132,7 +134,8 @@ def load_plan(rover: Rover, path: str | Path | None = None) -> Plan:
     try:
         layout = Layout(*sides).checked(rover)
     except InputError as error:
-        raise SidecarError(error.what, file=place(file, node, ("sides",)), element=f"sides: {error.element}",
+        where = "sides" if error.element == "sides" else f"sides: {error.element}"
+        raise SidecarError(error.what, file=place(file, node, ("sides",)), element=where,
                            value=error.value, cure=error.cure) from None  # fmt: skip
     speeds = Speeds(spec.speeds.roll, spec.speeds.lift, spec.speeds.steer)
     thresholds = {mode: _thresholds(each) for mode, each in spec.modes.items()}

@@ -138,6 +138,7 @@ _PLAIN = {
     "finite_number": ("not a finite number", "give a finite number"),
     "greater_than": ("not above {gt:g}", "give a number above {gt:g}"),
     "greater_than_equal": ("below {ge:g}", "give a number of {ge:g} or more"),
+    "less_than_equal": ("above {le:g}", "give a number of at most {le:g}"),
     "literal_error": ("not one of its words", "use {expected}"),
 }
 
