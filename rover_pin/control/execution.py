@@ -12,20 +12,16 @@ from rover_pin.kinematics.instant import Instant
 from rover_pin.kinematics.inverse import InverseKinematics
 from rover_pin.kinematics.limits import (
     Clutch,
-    ContactKept,
     CouplingsKept,
     JointLimits,
     LoopsClosed,
     SpeedLimits,
+    rolling_contacts,
 )
 from rover_pin.kinematics.rows import Box, Limit
 from rover_pin.kinematics.solution import Solution
 from rover_pin.numerics import Array
 from rover_pin.rover import Rover
-
-SLIP = 1e3
-"""Weight of side slip squared. Wheels scrub sideways where the ground or a lifted side makes the body roll;
-where it does not, and steering agrees, this is no different from a row that does not bend."""
 
 BEYOND = 1e-6
 """Share that a wanted rate may exceed a joint's speed by."""
@@ -52,11 +48,7 @@ class Execution:
         self.action.check(start.at, start)
         self.grip = self.action.grip(start)
         self._always = (*always(inverse.rover, self.grip), *self.action.limits(start))
-        lifted = self.grip.lifted
-        self._contacts = (
-            ContactKept(lifted, directions=("normal", "roll")),
-            ContactKept(lifted, directions=("slip",), bend=SLIP),
-        )
+        self._contacts = rolling_contacts(self.grip.lifted)
         self._check_speeds()
 
     def command(self, at: Instant) -> Command:

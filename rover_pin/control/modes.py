@@ -12,10 +12,12 @@ from dataclasses import dataclass
 
 from rover_pin.control.actions import Action, Drive, Engage, LiftWheels, Release, Reshape, Start, SteerToward
 from rover_pin.control.layout import Layout
+from rover_pin.control.lifting import Refusal, prepare_lift
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
 from rover_pin.kinematics.steering import Twist, steering_joints
-from rover_pin.kinematics.tasks.clearance import clearance
+from rover_pin.kinematics.tasks.clearance import clearance as clearance_of
+from rover_pin.rover import Rover
 
 ROLLING, CRABBING, CHASSIS_LIFTING = "rolling", "crabbing", "chassis_lifting"
 CREEPING, SINGLE_LIFT, DOUBLE_LIFT = "creeping", "single_lift", "double_lift"
@@ -23,6 +25,9 @@ MODES = (ROLLING, CRABBING, CHASSIS_LIFTING, CREEPING, SINGLE_LIFT, DOUBLE_LIFT)
 
 STRAIGHT = 1e-3
 """rad: steering this near to 0 is straight."""
+
+NEAR = 1e-3
+"""m: a clearance this near to the one that is needed will do."""
 
 LEVEL = 1e-3
 """rad: rockers this near to each other stand alike."""
@@ -140,6 +145,44 @@ def wheel_lifting(
     return Mode(SINGLE_LIFT if len(lifted) == 1 else DOUBLE_LIFT, tuple(actions))
 
 
+def prepared_lifting(
+    rover: Rover,
+    layout: Layout,
+    speeds: Speeds,
+    wheels: Sequence[str],
+    height: float,
+    way: float,
+    *,
+    clearance: float,
+    reserve: float = 5.0,
+) -> list[Mode]:
+    """Raise or lower the chassis as far as a lift needs it, lift, roll, let down, and go back.
+
+    Args:
+        rover: the rover, on level ground.
+        layout: its sides.
+        speeds: of the modes.
+        wheels: one, or two of different sides.
+        height: m over the ground below.
+        way: m rolled while they hang.
+        clearance: m, where it stands and goes back to.
+        reserve: N that every standing wheel has to keep.
+
+    Raises:
+        InputError: no clearance makes the lift possible; says why, in the words of the statics.
+    """
+    found = prepare_lift(
+        rover, layout, wheels, height, posture={"clearance": clearance}, reserve=reserve
+    )  # fmt: skip
+    if isinstance(found, Refusal):
+        raise InputError(f"is not lifted: {found.reason}", element=" and ".join(wheels))
+    lifting = wheel_lifting(layout, speeds, wheels, height, way)
+    if found.clearance is None or abs(found.clearance - clearance) < NEAR:
+        return [lifting]
+    there, back = (chassis_lifting(layout, speeds, goal) for goal in (found.clearance, clearance))
+    return [there, lifting, back]
+
+
 def refuse_start(mode: Mode, layout: Layout, at: Instant, start: Start) -> None:
     """Refuse a mode from a posture it cannot start in.
 
@@ -174,7 +217,7 @@ def refuse_start(mode: Mode, layout: Layout, at: Instant, start: Start) -> None:
                 cure="bring them to the same angle first",
             )
         if not at.rover.belly:
-            clearance(at)  # says that a belly is missing
+            clearance_of(at)  # says that a belly is missing
 
 
 def _steered(layout: Layout, twist: Twist, speeds: Speeds, drive: Drive) -> tuple[Action, ...]:

@@ -107,7 +107,8 @@ class Placed:
     @cached_property
     def centers(self) -> Array:
         """(2, n, 3) m, world: wheels' centres."""
-        return self.instant.centers[self.stations.wheels]
+        centers: Array = self.instant.centers[self.stations.wheels]
+        return centers
 
     @cached_property
     def _rows(self) -> tuple[Array, Array, Array]:

@@ -11,11 +11,11 @@ from rover_pin.errors import InputError
 from rover_pin.kinematics.conflict import Side, conflict
 from rover_pin.kinematics.instant import Bodies, Instant
 from rover_pin.kinematics.limits import (
-    ContactKept,
     CouplingsKept,
     JointLimits,
     LoopsClosed,
     SpeedLimits,
+    rolling_contacts,
 )
 from rover_pin.kinematics.program import Program, assemble
 from rover_pin.kinematics.rows import Box, Limit, Task, number
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 def usual_limits() -> tuple[Limit | Box, ...]:
     """What holds for every rover that rolls: couplings, loops, contacts, joints' places and speeds."""
-    return CouplingsKept(), LoopsClosed(), ContactKept(), JointLimits(), SpeedLimits()
+    return CouplingsKept(), LoopsClosed(), *rolling_contacts(), JointLimits(), SpeedLimits()
 
 
 class InverseKinematics:

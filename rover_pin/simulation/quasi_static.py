@@ -8,7 +8,6 @@ logged, and given back to the controller as what its load sensors tell.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -20,6 +19,7 @@ from rover_pin.control.controller import Controller, Cycle
 from rover_pin.control.layout import Layout
 from rover_pin.control.modes import Mode
 from rover_pin.control.motion_constraints import MotionConstraint, motion_constraints
+from rover_pin.control.standing import held_joints, place_of
 from rover_pin.control.supervisor import AT_REST, Reminder, State, Supervisor
 from rover_pin.control.threshold import Threshold
 from rover_pin.errors import InputError
@@ -208,13 +208,5 @@ def set_down(at: Instant, grip: Grip) -> Stance:
         at: where it is in its motion.
         grip: engaged clutches.
     """
-    rover = at.rover
-    drives = {wheel.drive for wheel in rover.wheels}
-    joints = {name: float(at.q[rover.column[name]]) for name in rover.actuated if name not in drives}
-    joints |= {name: float(value) for name, value in grip.clutches.items()}
-    inside = {
-        name: min(max(value, float(rover.lower[rover.column[name]])), float(rover.upper[rover.column[name]]))
-        for name, value in joints.items()
-    }
-    x, y, yaw = float(at.q[0]), float(at.q[1]), math.remainder(float(at.q[3]), 2.0 * math.pi)
-    return settle(rover, at.bodies.terrain, x=x, y=y, yaw=yaw, joints=inside)
+    x, y, yaw = place_of(at)
+    return settle(at.rover, at.bodies.terrain, x=x, y=y, yaw=yaw, joints=held_joints(at, grip))

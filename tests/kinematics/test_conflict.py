@@ -66,8 +66,8 @@ def agrees(program, without=None, names=None):
 
 CASES = {
     "brakes": (*usual_limits(), Held(DRIVES), Forward(0.05)),
-    "speed": (*usual_limits()[:3], SpeedLimits(dict.fromkeys(DRIVES, 0.1)), Forward(0.05)),
-    "box": (SpeedLimits({"L_act": 0.1}), *usual_limits()[:3], Forward(0.02, 0.01)),
+    "speed": (*usual_limits()[:4], SpeedLimits(dict.fromkeys(DRIVES, 0.1)), Forward(0.05)),
+    "box": (SpeedLimits({"L_act": 0.1}), *usual_limits()[:4], Forward(0.02, 0.01)),
 }
 
 

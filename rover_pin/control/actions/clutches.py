@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 from rover_pin.control.actions.action import Action, Command, Grip, Start
+from rover_pin.control.lifting.clutch import engage
 from rover_pin.errors import InputError, nearest
 from rover_pin.kinematics.instant import Instant
 from rover_pin.kinematics.rows import columns
-
-MOVING = 1e-5
-"""rad/s or m/s: a joint that moves this fast is not at a standstill."""
 
 
 @dataclass(frozen=True)
@@ -37,16 +34,9 @@ class Engage(Action):
         """
         for joint in self.joints:
             if joint not in at.rover.lockable:
-                raise InputError("is no joint that can be locked", element=joint,
-                                 cure=nearest(joint, at.rover.lockable))  # fmt: skip
-            rate = float(start.velocity[at.rover.column[joint]])
-            if not math.isfinite(rate) or abs(rate) > MOVING:
-                raise InputError(
-                    "a clutch is not engaged on a moving joint",
-                    element=joint,
-                    value=f"{rate:.3g} rad/s",
-                    cure="stop the action that moves it first",
-                )
+                cure = nearest(joint, at.rover.lockable)
+                raise InputError("is no joint that can be locked", element=joint, cure=cure)
+        engage(self.joints, {joint: float(start.velocity[at.rover.column[joint]]) for joint in self.joints})
 
     def grip(self, start: Start) -> Grip:
         """The clutches hold where the joints stood."""

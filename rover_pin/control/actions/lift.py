@@ -8,6 +8,9 @@ import numpy as np
 
 from rover_pin.control.actions.action import Action, Command, Grip, Start, drives_of, still
 from rover_pin.control.layout import Layout, Side
+from rover_pin.control.lifting.plan import plan_lift
+from rover_pin.control.lifting.result import Refusal
+from rover_pin.control.standing import held_joints, place_of
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
 from rover_pin.kinematics.limits import Held
@@ -57,10 +60,11 @@ class LiftWheels(Action):
         return tuple(self.layout.side_of(wheel) for wheel in self.wheels)
 
     def check(self, at: Instant, start: Start) -> None:
-        """The clutches of the sides are engaged.
+        """The clutches of the sides are engaged, and the statics carry the lift.
 
         Raises:
-            InputError: one that is not, or a side without one.
+            InputError: a clutch that is not engaged or not there; a lift whose statics would need a negative
+                load, or that is out of reach, in the words of the refusal.
         """
         for side in self._sides:
             if side.clutch is None or side.clutch not in start.grip.clutches:
@@ -69,6 +73,14 @@ class LiftWheels(Action):
                     element=side.clutch or f"{side.name}: clutch",
                     cure="engage it first",
                 )
+        if self.height > 0.0 and not start.grip.lifted:
+            joints = held_joints(at, start.grip)
+            (x, y, yaw), ground = place_of(at), at.bodies.terrain
+            planned = plan_lift(
+                at.rover, self.layout, self.wheels, self.height, joints, ground, x=x, y=y, yaw=yaw
+            )
+            if isinstance(planned, Refusal):
+                raise InputError(f"is not lifted: {planned.reason}", element=" and ".join(self.wheels))
 
     def grip(self, start: Start) -> Grip:
         """The wheels hang."""

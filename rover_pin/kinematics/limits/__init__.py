@@ -1,7 +1,7 @@
 """What a motion must obey, one a file."""
 
 from rover_pin.kinematics.limits.clutch import Clutch
-from rover_pin.kinematics.limits.contact import ContactKept
+from rover_pin.kinematics.limits.contact import ContactKept, rolling_contacts
 from rover_pin.kinematics.limits.coupling import CouplingsKept
 from rover_pin.kinematics.limits.held import Held
 from rover_pin.kinematics.limits.joint import JointLimits
@@ -16,4 +16,5 @@ __all__ = [
     "JointLimits",
     "LoopsClosed",
     "SpeedLimits",
+    "rolling_contacts",
 ]

@@ -71,4 +71,23 @@ class ContactKept:
         return self._kept[0][1:]
 
 
+SLIP = 1e3
+"""Weight of side slip squared. Wheels scrub sideways where the ground or a lifted side makes the body roll;
+where it does not, and steering agrees, this is no different from a row that does not bend."""
+
+
+def rolling_contacts(lifted: tuple[str, ...] = (), slip: float = SLIP) -> tuple[ContactKept, ContactKept]:
+    """Wheels stay on the ground and roll, and slip sideways as little as can be.
+
+    Args:
+        lifted: wheels and feet that do not stand.
+        slip: weight of side slip squared; inf forbids it. A rover that has to skid to turn wants less than
+            its wish to turn weighs.
+    """
+    return (
+        ContactKept(lifted, directions=("normal", "roll")),
+        ContactKept(lifted, directions=("slip",), bend=slip),
+    )
+
+
 _WORDS = {"normal": "contact", "roll": "rolling", "slip": "side slip"}
