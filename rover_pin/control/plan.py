@@ -65,7 +65,7 @@ class ModeSpec(Spec):
 
 
 _TAKE_ONE = tuple(name for name, kind in CONSTRAINTS.items() if kind.kind != "set")
-_KEYS: dict[str, Any] = {name: (ThresholdSpec | None, None) for name in _TAKE_ONE}
+_KEYS: dict[str, Any] = dict.fromkeys(_TAKE_ONE, (ThresholdSpec | None, None))
 ThresholdsSpec: type[ModeSpec] = create_model("ThresholdsSpec", __base__=ModeSpec, **_KEYS)
 
 

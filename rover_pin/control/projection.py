@@ -152,6 +152,7 @@ class Projection:
         kinds = [c.kind for c in self._watched for _ in c.parts]
         self.rates, self._steered = kinds.count("velocity"), kinds.count("velocity") + kinds.count("posture")
         self.pace = np.where(np.arange(self._steered) < self.rates, 1.0, gamma)
+        self._kept: dict[str, tuple[object, tuple[str, ...], Array]] = {}
         self.row_names = tuple(f"{name} {part}".rstrip() for name, part in self.parts[: self._steered])
 
     def watch(self, now: Now) -> Watch:
@@ -166,7 +167,22 @@ class Projection:
             if kind == "load" and now.loads is None:
                 value[place] = np.nan
                 continue
-            value[place] = constraint.value(now)
             if kind in ("velocity", "posture"):
                 matrix[place] = constraint.gradient(now)
+            if kind == "velocity":
+                value[place] = constraint.offset(now)
+            elif kind == "posture":
+                value[place] = constraint.value(now)
+            else:
+                value[place] = self._seldom(constraint, now)
+        if now.lifted:
+            idle = np.logical_not(matrix[: self.rates].any(axis=1))
+            value[: self.rates][idle] = np.nan
         return Watch(self, value, matrix)
+
+    def _seldom(self, constraint: MotionConstraint, now: Now) -> Array:
+        """The value of a constraint that depends on nothing but lifted wheels and loads: kept while they are."""
+        kept = self._kept.get(constraint.name)
+        if kept is None or kept[0] is not now.loads or kept[1] != now.lifted:
+            kept = self._kept[constraint.name] = now.loads, now.lifted, constraint.value(now)
+        return kept[2]

@@ -1,4 +1,4 @@
-"""How much the distance between front and second wheel changes for a rocker's turning, wheels on the ground."""
+"""How much the distance between front and second wheel changes for a rocker's turning, wheels standing."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rover_pin.control.kernels import rates_by_rockers
 from rover_pin.kinematics.instant import Instant, Integers
 from rover_pin.numerics import Array
 
@@ -53,19 +54,24 @@ class Reshaping:
             self._chosen[state] = self._standing(now), self._free(now)
         stands, free = self._chosen[state]
         rows, rockers = self._rows(now.at, stands), self.stations.rockers
-        turning = rows[:, rockers]
-        found = _least(rows[:, free], -turning)
-        missed = np.abs(rows[:, free] @ found + turning).max(axis=0)
         apart = self.stations.at(now.at).apart_rows
-        rates: Array = (apart[:, free] @ found).diagonal() + apart[[0, 1], rockers]
+        rates: Array
+        if len(rows) == len(free):
+            regular, rates = rates_by_rockers(rows, free, rockers, apart, STEEP, KEPT)
+            if regular:
+                return rates
+        turning = rows[:, rockers]
+        found = np.linalg.lstsq(rows[:, free], -turning, rcond=1e-9)[0]
+        missed = np.abs(rows[:, free] @ found + turning).max(axis=0)
+        rates = (apart[:, free] @ found).diagonal() + apart[[0, 1], rockers]
         return np.where(missed > KEPT * np.abs(turning).max(axis=0), 0.0, rates)
 
     def _rows(self, at: Instant, stands: Integers) -> Array:
         """Of gaps of standing wheels, couplings, loops."""
-        touch = at.contacts[stands]
-        gaps = at.rows(at.bodies.packed.joints[stands], touch[:, 1:4], touch[:, 4:7])
+        gaps = at.normal_rows[stands]
         loops = [loop.jacobian(at.mechanism) for loop in at.rover.loops]
-        return np.concatenate([gaps, self._couplings, *loops])
+        rows: Array = np.concatenate([gaps, self._couplings, *loops])
+        return rows
 
     def _standing(self, now: Now) -> Integers:
         """Places of the sides' wheels that are not lifted."""
@@ -78,16 +84,3 @@ class Reshaping:
         held = {*rover.actuated, *now.locked, *rover.dof_names[:2], rover.dof_names[3]}
         held |= {wheel.drive for wheel in rover.wheels if wheel.drive is not None}
         return np.array([i for i, name in enumerate(rover.dof_names) if name not in held], dtype=np.int64)
-
-
-def _least(matrix: Array, wanted: Array) -> Array:
-    """The x of matrix x = wanted, of the least squares where there is none, the least where there are many."""
-    if matrix.shape[0] == matrix.shape[1]:  # a quarter of the time, and what rovers have with a bogie a side
-        try:
-            found: Array = np.linalg.solve(matrix, wanted)
-        except np.linalg.LinAlgError:
-            pass
-        else:
-            if float(np.abs(found).max()) < STEEP:
-                return found
-    return np.linalg.lstsq(matrix, wanted, rcond=1e-9)[0]

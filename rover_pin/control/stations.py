@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pinocchio as pin
 
+from rover_pin.control.kernels import place_sides
 from rover_pin.control.layout import Layout, hinge_span
 from rover_pin.control.reshaping import Reshaping
 from rover_pin.errors import InputError
@@ -20,8 +22,6 @@ if TYPE_CHECKING:
 YAW = 3
 """Column of the heading's rate."""
 
-UP = np.array([0.0, 0.0, 1.0])
-
 
 class Stations:
     """A rover's sides as motion constraints see them; shared, so that an instant is worked out once.
@@ -33,7 +33,8 @@ class Stations:
         home_ahead: (2,) m, hinge ahead of the second wheel's centre at home.
         wheels: (2, n) places of wheels in the order of the rover's shapes, front to rear.
         hinges: (2,) Pinocchio's ids of the hinges.
-        carriers: (2 n + 4,) ids of the bodies that wheels' centres and, twice, hinges are points of.
+        order: (2 n,) the same in one row.
+        carriers: (2 n + 2,) ids of the bodies that wheels' centres and hinges are points of.
         rockers: (2,) columns of the rockers.
 
     Raises:
@@ -48,7 +49,8 @@ class Stations:
         self.wheels = np.array([index_of(names, side.wheels) for side in layout.sides])
         self.hinges = np.array([rover.model.getJointId(side.hinge) for side in layout.sides])
         carried = [shape.joint for shape in rover.shapes]
-        joints = [*(carried[i] for i in self.wheels.ravel()), *self.hinges, *self.hinges]
+        self.order = self.wheels.ravel()
+        joints = [*(carried[i] for i in self.order), *self.hinges]
         self.carriers = np.array(joints, dtype=np.int64)
         self.rockers = np.array([rover.column[side.rocker] for side in layout.sides])
         self.span = hinge_span(rover, layout)
@@ -89,73 +91,39 @@ class Stations:
 
 
 class Placed:
-    """The sides at an instant; lengths along the heading, which turns with the base's yaw."""
+    """The sides at an instant; lengths along the heading, which turns with the base's yaw.
+
+    Attributes:
+        stations, instant: whose, when.
+        heading: (3,) unit, world.
+        hinges: (2, 3) m, world: where the sides hang on the body.
+        apart: (2,) m, d_fm: front wheel's centre ahead of the second one's, left and right.
+        apart_rows: (2, nv) d(apart)/dq.
+        ahead: (2,) m: hinge ahead of the side's second wheel's centre, left and right.
+        ahead_rows: (2, nv) d(ahead)/dq.
+        rise_rows: (2, nv) velocities [m/s] of hinges upwards.
+    """
 
     def __init__(self, stations: Stations, instant: Instant) -> None:
         self.stations = stations
         self.instant = instant
-        cos, sin = float(np.cos(instant.heading)), float(np.sin(instant.heading))
+        heading = instant.heading
+        cos, sin = math.cos(heading), math.sin(heading)
         self.heading = np.array([cos, sin, 0.0])
-        self.leftward = np.array([-sin, cos, 0.0])
-
-    @cached_property
-    def hinges(self) -> Array:
-        """(2, 3) m, world: where the sides hang on the body."""
-        placed = self.instant.placed
-        return np.array([placed[joint].translation for joint in self.stations.hinges.tolist()])
-
-    @cached_property
-    def centers(self) -> Array:
-        """(2, n, 3) m, world: wheels' centres."""
-        centers: Array = self.instant.centers[self.stations.wheels]
-        return centers
-
-    @cached_property
-    def _rows(self) -> tuple[Array, Array, Array]:
-        stations, n = self.stations, self.stations.wheels.size
-        points = np.concatenate([self.centers.reshape(-1, 3), self.hinges, self.hinges])
-        directions = np.empty_like(points)
-        directions[:-2], directions[-2:] = self.heading, UP
-        rows = self.instant.rows(stations.carriers, points, directions)
-        return rows[:n].reshape(2, n // 2, -1), rows[n:-2], rows[-2:]
+        placed, count = instant.placed, stations.wheels.size
+        points = np.empty((count + 2, 3))
+        points[:count] = instant.centers[stations.order]
+        for side, joint in enumerate(stations.hinges.tolist()):
+            points[count + side] = placed[joint].translation
+        self.hinges: Array = points[count:]
+        self._rows = np.empty((count + 2, instant.jacobian.shape[1]))
+        self.rise_rows = np.empty((2, instant.jacobian.shape[1]))
+        self.apart, self.apart_rows, self.ahead, self.ahead_rows = place_sides(
+            instant.jacobian, instant.bodies.chains, stations.carriers, points, cos, sin, self._rows,
+            self.rise_rows,
+        )  # fmt: skip
 
     @property
     def center_rows(self) -> Array:
         """(2, n, nv) velocities [m/s] of wheels' centres along the heading."""
-        return self._rows[0]
-
-    @property
-    def hinge_rows(self) -> Array:
-        """(2, nv) velocities [m/s] of hinges along the heading."""
-        return self._rows[1]
-
-    @property
-    def rise_rows(self) -> Array:
-        """(2, nv) velocities [m/s] of hinges upwards."""
-        return self._rows[2]
-
-    @cached_property
-    def apart(self) -> Array:
-        """(2,) m, d_fm: front wheel's centre ahead of the second one's, left and right."""
-        distance: Array = (self.centers[:, 0] - self.centers[:, 1]) @ self.heading
-        return distance
-
-    @cached_property
-    def apart_rows(self) -> Array:
-        """(2, nv) d(apart)/dq; the heading turns too."""
-        rows = self.center_rows[:, 0] - self.center_rows[:, 1]
-        rows[:, YAW] += (self.centers[:, 0] - self.centers[:, 1]) @ self.leftward
-        return rows
-
-    @cached_property
-    def ahead(self) -> Array:
-        """(2,) m: hinge ahead of the side's second wheel's centre, left and right."""
-        distance: Array = (self.hinges - self.centers[:, 1]) @ self.heading
-        return distance
-
-    @cached_property
-    def ahead_rows(self) -> Array:
-        """(2, nv) d(ahead)/dq."""
-        rows = self.hinge_rows - self.center_rows[:, 1]
-        rows[:, YAW] += (self.hinges - self.centers[:, 1]) @ self.leftward
-        return rows
+        return self._rows[:-2].reshape(2, -1, self._rows.shape[1])

@@ -213,6 +213,22 @@ class Instant:
         tangents(self.axes, self.contacts, *found)
         return found
 
+    @cached_property
+    def contact_rows(self) -> Array:
+        """(3, s, nv) velocities [m/s] where shapes touch: along the normal, rolling, and sideways."""
+        contacts, bodies = self.contacts, self.bodies
+        rows = np.empty((3, len(contacts), self.jacobian.shape[1]))
+        points = contacts[:, 1:4]
+        for block, along in zip(rows, (contacts[:, 4:7], self.rolling, self.sideways), strict=True):
+            velocity_rows(self.jacobian, bodies.chains, bodies.rolling_joints, points, along, block)
+        return rows
+
+    @property
+    def normal_rows(self) -> Array:
+        """(s, nv) rates of the gaps [m/s]."""
+        normal: Array = self.contact_rows[0]
+        return normal
+
     def rows(self, joints: Integers, points: Array, directions: Array) -> Array:
         """(k, nv) velocities of points of bodies along directions.
 

@@ -107,10 +107,10 @@ class InverseKinematics:
             return Solution(self.rover, outcome, still, {}, {}, residuals, fighting, program)
         velocity = answer.x[: program.nv]
         velocity.setflags(write=False)
-        slack = {
-            program.row_names[row]: float(value)
-            for row, value in zip(program.bending, answer.x[program.nv :], strict=True)
-        }
+        slack = {}
+        if len(program.bending):
+            names = [program.row_names[row] for row in program.bending]
+            slack = dict(zip(names, answer.x[program.nv :].tolist(), strict=True))
         asked = {task.name: aim for task, aim in zip(tasks, aims, strict=True)}
         return Solution(self.rover, Outcome.SOLVED, velocity, slack, asked, residuals, (), program)
 

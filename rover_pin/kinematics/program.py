@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,8 +32,8 @@ class Program:
         high: (m,).
         floor: (n,).
         ceiling: (n,).
-        equation_names: (e,).
-        row_names: (m,).
+        equation_blocks: names of the equations, block by block.
+        row_blocks: names of the rows, block by block.
         bending: (n - nv,) row of each slack.
         pins: (e,) the coordinate that an equation gives its rate, -1 where it binds several.
     """
@@ -47,10 +48,20 @@ class Program:
     high: Array
     floor: Array
     ceiling: Array
-    equation_names: tuple[str, ...]
-    row_names: tuple[str, ...]
+    equation_blocks: tuple[tuple[str, ...], ...]
+    row_blocks: tuple[tuple[str, ...], ...]
     bending: NDArray[np.int64]
     pins: NDArray[np.int64]
+
+    @property
+    def equation_names(self) -> tuple[str, ...]:
+        """(e,)."""
+        return tuple(chain.from_iterable(self.equation_blocks))
+
+    @property
+    def row_names(self) -> tuple[str, ...]:
+        """(m,)."""
+        return tuple(chain.from_iterable(self.row_blocks))
 
 
 def assemble(
@@ -92,8 +103,8 @@ def assemble(
     pins = [pin for block in equal for pin in (block.pins or (-1,) * len(block.names))]
     return Program(
         nv, hessian, gradient, equations, right, matrix, low, high, floor, ceiling,
-        tuple(name for block in equal for name in block.names),
-        tuple(name for block in between for name in block.names), bending, np.array(pins, dtype=np.int64),
+        tuple(block.names for block in equal), tuple(block.names for block in between), bending,
+        np.array(pins, dtype=np.int64),
     )  # fmt: skip
 
 

@@ -13,7 +13,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from rover_pin.kinematics.instant import Instant, Integers
-from rover_pin.kinematics.kernels import velocity_rows
 from rover_pin.numerics import Array
 
 DIRECTIONS = ("normal", "roll", "slip")
@@ -25,12 +24,8 @@ def contact_rows(at: Instant, which: Integers, directions: Sequence[str] = DIREC
     `normal`: the rate of the gap, 0 keeps the contact. `roll`: sliding along the rolling direction, 0 where a
     wheel rolls. `slip`: sliding across it, to the left.
     """
-    along = {"normal": at.contacts[:, 4:7], "roll": at.rolling, "slip": at.sideways}
-    joints, points, nv = at.bodies.rolling_joints[which], at.contacts[which, 1:4], at.jacobian.shape[1]
-    rows = np.empty((len(directions) * len(which), nv))
-    for i, word in enumerate(directions):
-        block = rows[i * len(which) : (i + 1) * len(which)]
-        velocity_rows(at.jacobian, at.bodies.chains, joints, points, along[word][which], block)
+    places = [DIRECTIONS.index(word) for word in directions]
+    rows: Array = np.concatenate([at.contact_rows[place][which] for place in places])
     return rows
 
 

@@ -31,7 +31,7 @@ class Coordination(OfRates):
         """(2,) m/s, positive where the front wheel turns too fast; NaN where a wheel of the two is lifted."""
         values = super().value(now)
         if now.lifted:
-            values[~self.applies(now)] = np.nan
+            values[np.logical_not(self.applies(now))] = np.nan
         return values
 
     def rows(self, now: Now) -> Array:
@@ -42,7 +42,7 @@ class Coordination(OfRates):
         sliding = at.rows(at.bodies.rolling_joints[pair], points, np.tile(placed.heading, (4, 1)))
         rows: Array = sliding[2:] - sliding[:2]
         if now.lifted:
-            rows[~self.applies(now)] = 0.0
+            rows[np.logical_not(self.applies(now))] = 0.0
         return rows
 
     def applies(self, now: Now) -> Array:
