@@ -25,7 +25,7 @@ def place_sides(
     Args:
         jacobian: (6, nv) velocity at the world's origin and axis of every column, world axes.
         chains: (joints, nv) 1 where a column moves a body.
-        carriers: (2 n + 2,) bodies of n wheels' centres of the left side, of the right side, and of both hinges.
+        carriers: (2 n + 2,) bodies of n wheels' centres of the left side, of the right, and of both hinges.
         points: (2 n + 2, 3) m, world.
         cos: of the heading.
         sin: of the heading.

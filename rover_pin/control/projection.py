@@ -181,7 +181,7 @@ class Projection:
         return Watch(self, value, matrix)
 
     def _seldom(self, constraint: MotionConstraint, now: Now) -> Array:
-        """The value of a constraint that depends on nothing but lifted wheels and loads: kept while they are."""
+        """The value of a constraint on lifted wheels or loads: kept while these are the same."""
         kept = self._kept.get(constraint.name)
         if kept is None or kept[0] is not now.loads or kept[1] != now.lifted:
             kept = self._kept[constraint.name] = now.loads, now.lifted, constraint.value(now)

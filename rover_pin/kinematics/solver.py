@@ -78,7 +78,7 @@ def _attempt(program: Program, guess: Any, iterations: int) -> Answer:
     settings.eps_rel = 0.0
     parts[0] *= WEIGHT
     parts[1] *= WEIGHT
-    qp.init(*parts)
+    qp.init(*parts, compute_preconditioner=False)
     qp.solve()
     found = qp.results
     y_part, z_part = found.y / WEIGHT, found.z / WEIGHT

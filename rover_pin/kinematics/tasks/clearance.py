@@ -57,7 +57,7 @@ class Clearance:
             target = self.rate
         else:
             way = self.gain * (float(self.goal or 0.0) - clearance(at)) / dt
-            target = float(np.clip(way, -self.speed, self.speed))
+            target = min(max(way, -self.speed), self.speed)
         return Aim(clearance_row(at)[None, :], np.array([target]), np.array([self.weight]))
 
 
@@ -84,11 +84,13 @@ def clearance(at: Instant) -> float:
 
 def clearance_row(at: Instant) -> Array:
     """(nv,) rate of `clearance` [m/s]: the points' own, less the ground's slope times their way over it."""
-    found, along = belly_points(at), -_ground(at)
-    along[:, :2] = along[:, 1:]
+    ground = _ground(at)
+    along = np.empty((len(ground), 3))
+    along[:, :2] = -ground[:, 1:]
     along[:, 2] = 1.0
-    rows: Array = at.rows(_belly(at).joints, found, along).sum(axis=0)
-    return rows / len(found)
+    rows = at.rows(_belly(at).joints, belly_points(at), along)
+    row: Array = _belly(at).share @ rows
+    return row
 
 
 def _ground(at: Instant) -> Array:
@@ -103,10 +105,11 @@ def _ground(at: Instant) -> Array:
 
 
 class _Belly(NamedTuple):
-    """The belly's points (p, 3) m in the frames of the joints that carry them, by joint; joints (p,)."""
+    """Points (p, 3) m of the belly in their joints' frames, by joint; joints and shares (p,)."""
 
     groups: list[tuple[int, Array]]
     joints: Integers
+    share: Array
 
 
 def _belly(at: Instant) -> _Belly:
@@ -124,4 +127,6 @@ def _find_belly(at: Instant) -> _Belly:
         )
     joints = sorted({int(point.joint) for point in belly})
     groups = [(j, np.array([point.point for point in belly if point.joint == j])) for j in joints]
-    return _Belly(groups, np.repeat(np.array(joints, dtype=np.int64), [len(points) for _, points in groups]))
+    count = len(belly)
+    carriers = np.repeat(np.array(joints, dtype=np.int64), [len(points) for _, points in groups])
+    return _Belly(groups, carriers, np.full(count, 1.0 / count))
