@@ -207,7 +207,7 @@ class Controller:
                 self.supervisor.report(finished=True)
                 return ""
             action = self._begun[place].undo(start) if undoing else self._mode.actions[place]
-            self._execution = Execution(self.inverse, action, start, self.dt)
+            self._execution = Execution(self.inverse, action, start, self.dt, going_back=undoing)
         except InputError as error:
             self._execution = None
             return str(error)

@@ -35,12 +35,16 @@ class Execution:
         action: what is done.
         start: where it begins.
         dt: s a cycle.
+        going_back: whether it undoes another; it may then start at a joint's limit, where rates are what the
+            limits leave, and is not refused for the speed that it would have without them.
 
     Raises:
         InputError: the action cannot begin there, or asks for more speed than a joint has; says which.
     """
 
-    def __init__(self, inverse: InverseKinematics, action: Action, start: Start, dt: float) -> None:
+    def __init__(
+        self, inverse: InverseKinematics, action: Action, start: Start, dt: float, *, going_back: bool = False
+    ) -> None:
         self.inverse = inverse
         self.action = action.begun(start)
         self.start = start
@@ -49,7 +53,8 @@ class Execution:
         self.grip = self.action.grip(start)
         self._always = (*always(inverse.rover, self.grip), *self.action.limits(start))
         self._contacts = rolling_contacts(self.grip.lifted)
-        self._check_speeds()
+        if not going_back:
+            self._check_speeds()
 
     def command(self, at: Instant) -> Command:
         """What the action wants now."""
