@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -89,9 +88,9 @@ class Log:
             frozen(self._v),
             tuple(self._actions),
             tuple(self._lifted),
-            MappingProxyType({name: frozen(rows) for name, rows in self._indices.items()}),
-            MappingProxyType({name: frozen(rows) for name, rows in self._values.items()}),
-            MappingProxyType({name: frozen(loads[:, i]) for i, name in enumerate(wheels)}),
+            {name: frozen(rows) for name, rows in self._indices.items()},
+            {name: frozen(rows) for name, rows in self._values.items()},
+            {name: frozen(loads[:, i]) for i, name in enumerate(wheels)},
             frozen(self._drift),
             frozen(self._residual),
             frozen(self._apart),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from rover_pin.numerics import Array
@@ -12,10 +11,6 @@ from rover_pin.numerics import Array
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
     from rover_pin.terrain import Terrain
-
-
-def _nothing() -> Mapping[str, Array]:
-    return MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -48,9 +43,9 @@ class Run:
     rates: Array
     actions: tuple[str, ...]
     lifted: tuple[tuple[str, ...], ...]
-    indices: Mapping[str, Array] = field(default_factory=_nothing)
-    values: Mapping[str, Array] = field(default_factory=_nothing)
-    loads: Mapping[str, Array] = field(default_factory=_nothing)
+    indices: Mapping[str, Array] = field(default_factory=dict)
+    values: Mapping[str, Array] = field(default_factory=dict)
+    loads: Mapping[str, Array] = field(default_factory=dict)
     drift: Array | None = None
     residual: Array | None = None
     apart: Array | None = None

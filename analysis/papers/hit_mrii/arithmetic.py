@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from rover_pin.analysis.locomotion import relative_error
-
 from rover_pin.analysis.papers.finding import Finding, claimed, compared
 
 PRINTED = (

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
-from rover_pin.control.plan import load_plan
 
 from rover_pin.analysis.papers.chart import Chart, Curve, Mark, Panel
 from rover_pin.analysis.papers.finding import NOT_REPRODUCED, Finding, claimed, compared, fitted
 from rover_pin.control.motion_constraints import motion_constraints
 from rover_pin.control.now import Now
+from rover_pin.control.plan import load_plan
 from rover_pin.kinematics.instant import Bodies
 from rover_pin.kinematics.model import complete
 from rover_pin.kinematics.wheelbase import wheelbase_row

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from multiprocessing import get_context
 from os import cpu_count
 from typing import TYPE_CHECKING
 
-from rover_pin.control.plan import load_plan
-
 from rover_pin.analysis.papers.hit_mrii import tasks
 from rover_pin.analysis.papers.hit_mrii.tasks import Task
+from rover_pin.control.plan import load_plan
 from rover_pin.simulation.quasi_static import Setting, simulate
 from rover_pin.statics.settle import settle
+from rover_pin.terrain import Terrain
 
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
@@ -61,7 +62,12 @@ def run_all(rover: Rover, keys: Sequence[str] = ()) -> Mapping[str, Run]:
     wanted = [task.key for task in all_tasks() if not keys or task.key in keys]
     workers = min(len(wanted), cpu_count() or 1)
     with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
-        return dict(zip(wanted, pool.map(_run_by_key, [rover] * len(wanted), wanted), strict=True))
+        found = pool.map(_run_by_key, [rover] * len(wanted), wanted)
+        flat = Terrain.flat()  # one rover and one level ground, whichever process they came from
+        return {
+            key: replace(run, rover=rover, terrain=flat if run.terrain.label == flat.label else run.terrain)
+            for key, run in zip(wanted, found, strict=True)
+        }
 
 
 def _run_by_key(rover: Rover, key: str) -> Run:
