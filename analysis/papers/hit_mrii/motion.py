@@ -88,8 +88,8 @@ def _task_15(runs: Mapping[str, Run]) -> list[Finding]:
         steady = bool(np.all(np.diff(angles) > -1e-9))
         rows.append(
             claimed(f"Task 15 at {rate} rad/s: steering angle as the wheelbase grows", "deg",
-                    "stable increase", f"{np.degrees(angles[0]):.1f} to {np.degrees(angles[-1]):.1f}", steady, where="Fig. 25",
-                    why="left front, about a centre 1.5 m to the left (ours)")
+                    "stable increase", f"{np.degrees(angles[0]):.1f} to {np.degrees(angles[-1]):.1f}", steady,
+                    where="Fig. 25", why="left front, about a centre 1.5 m to the left (ours)")
         )  # fmt: skip
     rows.append(
         Finding("Task 15: largest change of yaw rate, motion constraint 8", "", 0.4, None, NOT_REPRODUCED,

@@ -13,13 +13,16 @@ from rover_pin.kinematics.rolling import contact_rows
 from rover_pin.kinematics.rows import Aim, gain_between, number, weight
 from rover_pin.numerics import Array
 
+LANDING = 0.005
+"""m: below this a wheel that is let down goes by its gap."""
+
 
 @dataclass(frozen=True)
 class WheelLift:
     """Rate of a wheel's height over the ground below it, or a height to go to.
 
     The height is that of the wheel's lowest point over the ground under its centre, so that a step beside the
-    wheel does not count; at 0 it is the gap to whatever is nearest that goes to 0.
+    wheel does not count; for the last millimetres to 0 it is the gap that goes to 0.
 
     Attributes:
         wheel: its name.
@@ -62,10 +65,11 @@ class WheelLift:
             InputError: no wheel of that name.
         """
         which = at.index([self.wheel])
-        if self.height == 0.0:
+        above = height(at, int(which[0]))
+        if self.height == 0.0 and above < LANDING:
             row, left = contact_rows(at, which, ("normal",)), -float(at.contacts[which[0], 0])
         else:
-            row, left = height_row(at, which), (self.height or 0.0) - height(at, int(which[0]))
+            row, left = height_row(at, which), (self.height or 0.0) - above
         target = self.rate
         if target is None:
             target = min(max(self.gain * left / dt, -self.speed), self.speed)
