@@ -9,7 +9,7 @@ from rover_pin.errors import InputError
 
 
 def relative_error(commanded: ArrayLike, real: ArrayLike) -> float:
-    """Sum of |commanded - real| over the sum of |commanded|, of N segments (Qi et al., eq. 42).
+    """Sum of |commanded - real| over the sum of |commanded|, of N segments (the HIT-MRII paper, eq. 42).
 
     Args:
         commanded: (N,) in any unit.

@@ -1,7 +1,7 @@
 """Motion modes as sequences of actions; hybrids are their sums.
 
 Wheel rolling (WRM), wheel crabbing (WCM), chassis lifting (RCLM), creeping (RCM), single and double wheel
-lifting (SWLM, DWLM), as Qi et al. name them, for any rover with two sides.
+lifting (SWLM, DWLM), as the HIT-MRII paper names them, for any rover with two sides.
 """
 
 from __future__ import annotations

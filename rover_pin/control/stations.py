@@ -34,6 +34,7 @@ class Stations:
         wheels: (2, n) places of wheels in the order of the rover's shapes, front to rear.
         hinges: (2,) Pinocchio's ids of the hinges.
         order: (2 n,) the same in one row.
+        pairs: (4,) places of both front wheels, then of both second ones.
         carriers: (2 n + 2,) ids of the bodies that wheels' centres and hinges are points of.
         rockers: (2,) columns of the rockers.
 
@@ -50,6 +51,7 @@ class Stations:
         self.hinges = np.array([rover.model.getJointId(side.hinge) for side in layout.sides])
         carried = [shape.joint for shape in rover.shapes]
         self.order = self.wheels.ravel()
+        self.pairs = self.wheels[:, :2].T.ravel()
         joints = [*(carried[i] for i in self.order), *self.hinges]
         self.carriers = np.array(joints, dtype=np.int64)
         self.rockers = np.array([rover.column[side.rocker] for side in layout.sides])

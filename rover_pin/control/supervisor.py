@@ -1,6 +1,6 @@
 """Who decides when a motion constraint is reached: halt, remind the operator, go on, or roll back.
 
-Rules of Qi et al. (HIT-MRII), section 7: a threshold reached, or a projection that is infeasible, halts the
+Rules of the HIT-MRII paper, section 7: a threshold reached, or a projection that is infeasible, halts the
 motion and reminds the operator. An answer ends the action under way and runs the next. No answer in time
 rolls the mode's actions back, the last first, to where it began; so does a second reminder within one mode,
 at once. The count of reminders starts anew with every mode. Beyond the paper: a fault (a sensor, a refusal)

@@ -1,4 +1,4 @@
-"""HIT-MRII (Qi et al.): a six-wheeled rover that reshapes itself, Tasks 1 to 15.
+"""HIT-MRII: a six-wheeled rover that reshapes itself, Tasks 1 to 15.
 
 The paper's signs: a rear arm's angle grows as it swings down; a shortened wheelbase is positive.
 """
@@ -42,13 +42,14 @@ def _compute(robots: Mapping[str, Rover]) -> Results:
         *soil.findings(),
     ]
     charts = (*reshaping.charts(rover, done), loads.chart(done))
-    return Results(tuple(rows), charts, done)
+    named = {f"Task {task.key}: {task.title}": done[task.key] for task in runs.all_tasks()}
+    return Results(tuple(rows), charts, named)
 
 
 PAPER = Paper(
     key="hit_mrii",
-    title="Inverse kinematics control of a self-reconfigurable wheeled robot with motion constraints",
-    citation="H. Qi et al.; Harbin Institute of Technology",
+    title="HIT-MRII: inverse kinematics control with motion constraints",
+    citation="Harbin Institute of Technology; title and authors are not in the text at hand",
     robots=(ROBOT,),
     compute=_compute,
     remarks=REMARKS,

@@ -37,9 +37,10 @@ class Coordination(OfRates):
     def rows(self, now: Now) -> Array:
         """(2, nv) sliding along the heading of the second less that of the front wheel's contact point."""
         at, placed = now.at, self.stations.at(now.at)
-        pair = self.stations.wheels[:, :2].T.ravel()
-        points = at.contacts[pair, 1:4]
-        sliding = at.rows(at.bodies.rolling_joints[pair], points, np.tile(placed.heading, (4, 1)))
+        pair = self.stations.pairs
+        along = np.empty((4, 3))
+        along[:] = placed.heading
+        sliding = at.rows(at.bodies.rolling_joints[pair], at.contacts[pair, 1:4], along)
         rows: Array = sliding[2:] - sliding[:2]
         if now.lifted:
             rows[np.logical_not(self.applies(now))] = 0.0

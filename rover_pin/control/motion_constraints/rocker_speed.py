@@ -25,7 +25,8 @@ class RockerSpeed(OfRates):
 
     def rows(self, now: Now) -> Array:
         """(2, nv) s/rad, in the rocker's column 1 / w_max."""
-        speed = np.abs(self.stations.at(now.at).center_rows.mean(axis=1) @ now.nominal)
+        speeds = self.stations.at(now.at).center_rows @ now.nominal
+        speed = np.abs(speeds.sum(axis=1)) / speeds.shape[1]
         rows = np.zeros((2, len(now.v)))
         rates = np.abs(self._reshaping.rates(now))
         rows[[0, 1], self.stations.rockers] = rates / np.maximum(speed, self.options.speed_floor)

@@ -67,41 +67,37 @@ def belly_points(at: Instant) -> Array:
     Raises:
         InputError: the rover declares no belly.
     """
-    belly = _belly(at)
-    return np.concatenate(
-        [
-            points @ at.placed[joint].rotation.T + at.placed[joint].translation
-            for joint, points in belly.groups
-        ]
-    )
+    return _under(at)[0]
 
 
 def clearance(at: Instant) -> float:
     """Mean height of the belly's points over the ground [m]."""
-    ground = _ground(at)
-    return float(belly_points(at)[:, 2].sum() - ground[:, 0].sum()) / len(ground)
+    points, ground = _under(at)
+    return float((points[:, 2] - ground[:, 0]) @ _belly(at).share)
 
 
 def clearance_row(at: Instant) -> Array:
     """(nv,) rate of `clearance` [m/s]: the points' own, less the ground's slope times their way over it."""
-    ground = _ground(at)
-    along = np.empty((len(ground), 3))
-    along[:, :2] = -ground[:, 1:]
+    points, ground = _under(at)
+    along = -ground[:, [1, 2, 0]]
     along[:, 2] = 1.0
-    rows = at.rows(_belly(at).joints, belly_points(at), along)
-    row: Array = _belly(at).share @ rows
+    row: Array = _belly(at).share @ at.rows(_belly(at).joints, points, along)
     return row
 
 
-def _ground(at: Instant) -> Array:
-    """(p, 3) height [m] and slopes of the ground under the belly's points."""
-    ground = at.bodies.terrain
+def _under(at: Instant) -> tuple[Array, Array]:
+    """The belly's points (p, 3) m, world; height [m] and slopes (p, 3) of the ground under them."""
+    return at.once("belly", lambda: _look(at))
 
-    def look() -> Array:
-        places = belly_points(at).tolist()
-        return np.array([surface(ground.kind, ground.table, ground.params, x, y)[:3] for x, y, _ in places])
 
-    return at.once("ground below the belly", look)
+def _look(at: Instant) -> tuple[Array, Array]:
+    placed, parts = at.placed, []
+    for joint, points in _belly(at).groups:
+        placement = placed[joint]
+        parts.append(points @ placement.rotation.T + placement.translation)
+    found = parts[0] if len(parts) == 1 else np.concatenate(parts)
+    kind, table, params = at.bodies.terrain.kind, at.bodies.terrain.table, at.bodies.terrain.params
+    return found, np.array([surface(kind, table, params, x, y)[:3] for x, y, _ in found.tolist()])
 
 
 class _Belly(NamedTuple):
