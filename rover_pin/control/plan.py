@@ -75,7 +75,7 @@ class ControlSpec(Spec):
     version: Literal[1] = Field(default=SCHEMA, alias="schema")
     sides: SidesSpec
     speeds: SpeedsSpec = SpeedsSpec()
-    modes: dict[str, ThresholdsSpec]  # type: ignore[valid-type]
+    modes: dict[str, ThresholdsSpec]
 
 
 @dataclass(frozen=True)

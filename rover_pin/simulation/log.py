@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rover_pin.control.motion_constraints import MotionConstraint
+from rover_pin.control.now import Now
 from rover_pin.numerics import Array, frozen
 from rover_pin.simulation.run import Run
 
@@ -32,6 +33,7 @@ class Log:
 
     def __init__(self, rover: Rover, terrain: Terrain, constraints: Mapping[str, MotionConstraint]) -> None:
         self.rover, self.terrain = rover, terrain
+        self._constraints = dict(constraints)
         self._parts = {name: len(constraint.parts) for name, constraint in constraints.items()}
         self._time: list[float] = []
         self._q: list[Array] = []
@@ -57,16 +59,27 @@ class Log:
     ) -> None:
         """One sample: where the motion is, what is done, where the statics set the rover down."""
         nv, wheels = self.rover.model.nv, [wheel.name for wheel in self.rover.wheels]
+        readings = {} if cycle is None else cycle.readings
+        loads = dict(stance.loads) if stance.settled else None
+        still = np.zeros(nv)
+        now = Now(at, still, still, grip.lifted, loads, tuple(grip.clutches))
+
+        def unwatched(name: str) -> Array:
+            """A posture's or loads' value that no threshold asks for, so that its history is whole."""
+            constraint = self._constraints[name]
+            known = constraint.kind in ("posture", "set") or (constraint.kind == "load" and loads is not None)
+            return constraint.value(now) if known else np.full(self._parts[name], np.nan)
+
         self._time.append(time)
         self._q.append(np.array(at.q))
         self._v.append(np.zeros(nv) if cycle is None else np.array(cycle.velocity))
         self._actions.append(action)
         self._lifted.append(grip.lifted)
         for name, parts in self._parts.items():
-            reading = cycle.readings.get(name) if cycle is not None else None
+            reading = readings.get(name)
             unknown = np.full(parts, np.nan)
             self._indices[name].append(unknown if reading is None else np.array(reading.index))
-            self._values[name].append(unknown if reading is None else np.array(reading.value))
+            self._values[name].append(unwatched(name) if reading is None else np.array(reading.value))
         self._loads.append([stance.loads[name] if stance.settled else np.nan for name in wheels])
         self._drift.append(np.linalg.norm(sliding.slid[: len(wheels)], axis=1))
         self._residual.append(max(stance.residuals.values()) if stance.settled else np.nan)

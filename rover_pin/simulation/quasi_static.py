@@ -8,6 +8,7 @@ logged, and given back to the controller as what its load sensors tell.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -161,7 +162,7 @@ class _Simulation:
     def _advance(self, cycle: Cycle) -> None:
         velocity = cycle.velocity
         if np.any(velocity):
-            self.at = advance(self.at, _onward(velocity, self._before), self.setting.dt)
+            self.at = advance(self.at, _onward(velocity, self._before, self.setting.dt), self.setting.dt)
             self.sliding.step(self.at, cycle.grip.lifted)
         self._before = velocity
         self._steps += 1
@@ -189,12 +190,17 @@ class _Simulation:
         return ""
 
 
-def _onward(velocity: Array, before: Array) -> Array:
+def _onward(velocity: Array, before: Array, dt: float) -> Array:
     """The mean rate of a step whose rates go on changing as they did (Adams and Bashforth, second order).
 
-    Where a command sets in or ends the rates jump and stay what they are.
+    The base's own turning is left to `advance`. Where a command sets in or ends the rates jump and stay what
+    they are.
     """
+    turned = float(before[3]) * dt
+    c, s = math.cos(turned), math.sin(turned)
     change = velocity - before
+    change[0] = velocity[0] - (c * before[0] - s * before[1])
+    change[1] = velocity[1] - (s * before[0] + c * before[1])
     if float(np.max(np.abs(change))) > STEADY * float(np.max(np.abs(velocity))):
         return velocity
     onward: Array = velocity + 0.5 * change
