@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from rover_pin import analysis as analysis
+    from rover_pin import control as control
     from rover_pin import errors as errors
+    from rover_pin import kinematics as kinematics
+    from rover_pin import simulation as simulation
     from rover_pin import viz as viz
     from rover_pin.description.catalogue import robots as robots
     from rover_pin.loader import load as load
@@ -36,7 +39,7 @@ _HOME = {
     "robots": "description.catalogue",
     "settle": "statics.settle",
 }
-_ROOMS = ("analysis", "errors", "stability", "viz")
+_ROOMS = ("analysis", "control", "errors", "kinematics", "simulation", "stability", "viz")
 
 __all__ = sorted([*_HOME, *_ROOMS])
 

@@ -62,7 +62,8 @@ def run_all(rover: Rover, keys: Sequence[str] = ()) -> Mapping[str, Run]:
     wanted = [task.key for task in all_tasks() if not keys or task.key in keys]
     workers = min(len(wanted), cpu_count() or 1)
     with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
-        found = pool.map(_run_by_key, [rover] * len(wanted), wanted)
+        times = CYCLE, SAMPLE
+        found = pool.map(_run_by_key, [rover] * len(wanted), wanted, [times] * len(wanted))
         flat = Terrain.flat()  # one rover and one level ground, whichever process they came from
         return {
             key: replace(run, rover=rover, terrain=flat if run.terrain.label == flat.label else run.terrain)
@@ -70,6 +71,7 @@ def run_all(rover: Rover, keys: Sequence[str] = ()) -> Mapping[str, Run]:
         }
 
 
-def _run_by_key(rover: Rover, key: str) -> Run:
+def _run_by_key(rover: Rover, key: str, times: tuple[float, float]) -> Run:
     """In a worker: a task is found by its key, as its scripts do not travel."""
-    return run_task(rover, next(task for task in all_tasks() if task.key == key))
+    task = next(task for task in all_tasks() if task.key == key)
+    return run_task(rover, task, cycle=times[0], sample=times[1])
