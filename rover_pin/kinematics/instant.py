@@ -14,7 +14,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from rover_pin.contact.pack import pack
+from rover_pin.contact.pack import half_extents, pack
 from rover_pin.contact.search import find_all
 from rover_pin.errors import InputError
 from rover_pin.kinematics.kernels import tangents, velocity_rows
@@ -62,6 +62,7 @@ class Bodies:
         self.latest: Instant | None = None
         self._found = np.empty((len(self.names), 8, 7))
         self._counts = np.zeros(len(self.names), dtype=np.int64)
+        self._bounded = bool(np.isfinite(terrain.extent).any())
         self._kept: dict[str, Any] = {}
 
     def once(self, what: str, work_out: Callable[[], T]) -> T:
@@ -94,11 +95,6 @@ class Bodies:
             dtype=np.int64,
         )
 
-    @cached_property
-    def is_wheel(self) -> NDArray[np.bool_]:
-        """(s,) whether a shape is a wheel; else it is a foot."""
-        return np.arange(len(self.names)) < len(self.rover.wheels)
-
     def at(self, q: Array) -> Instant:
         """The rover at q (nv,), copied.
 
@@ -119,6 +115,17 @@ class Bodies:
                 "is no finite number", element=self.rover.dof_names[bad], value=float(values[bad])
             )
         return Instant(self, values)
+
+    def off_map(self, at: Instant) -> str | None:
+        """A shape with a point that is not over the map, or None."""
+        if not self._bounded:
+            return None
+        low_x, high_x, low_y, high_y = self.terrain.extent
+        shapes = self.packed
+        reach = half_extents(shapes.forms, at.axes, shapes.rings, shapes.treads)
+        low, high = at.centers[:, :2] - reach, at.centers[:, :2] + reach
+        off = (low < (low_x, low_y)).any(axis=1) | (high > (high_x, high_y)).any(axis=1)
+        return self.names[int(np.argmax(off))] if off.any() else None
 
     def touching(self, centers: Array, axes: Array) -> Array:
         """(s, 7) gap [m], point [m], unit normal out of the ground of each shape's nearest place, world."""
@@ -147,6 +154,7 @@ class Instant:
         bodies.latest = self
         self.jacobian: Array = bodies.data.J.copy()
         self._kept: dict[str, Any] = {}
+        self._mechanism: Kinematics | None = None
 
     @property
     def rover(self) -> Rover:
@@ -168,11 +176,13 @@ class Instant:
             self.bodies.latest = self
         return self.bodies.data.oMi
 
-    @cached_property
+    @property
     def mechanism(self) -> Kinematics:
-        """What couplings, loops and tracks ask for."""
-        self.bodies.latest = self
-        return Kinematics(self.bodies.model, self.bodies.data, self.q)
+        """What couplings, loops and tracks ask for; made again where another instant came between."""
+        if self._mechanism is None or self.bodies.latest is not self:
+            self._mechanism = Kinematics(self.bodies.model, self.bodies.data, self.q)
+            self.bodies.latest = self
+        return self._mechanism
 
     @cached_property
     def _shapes(self) -> tuple[Array, Array]:
@@ -261,13 +271,13 @@ class Instant:
     @cached_property
     def com(self) -> Array:
         """(3,) m, world: centre of mass."""
-        self.bodies.latest = self
+        _ = self.placed
         return frozen(pin.centerOfMass(self.bodies.model, self.bodies.data, self.q))
 
     @cached_property
     def com_rows(self) -> Array:
         """(3, nv) velocity of the centre of mass."""
-        self.bodies.latest = self
+        _ = self.placed
         return frozen(pin.jacobianCenterOfMass(self.bodies.model, self.bodies.data, self.q))
 
     @property

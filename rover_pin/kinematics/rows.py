@@ -119,6 +119,17 @@ def number(element: str, value: float, cure: str = "") -> float:
     return float(value)
 
 
+def above(element: str, value: float, unit: str = "") -> float:
+    """A finite number above 0, checked.
+
+    Raises:
+        InputError: it is not finite, or not above 0.
+    """
+    if not number(element, value) > 0.0:
+        raise InputError(f"must be above 0 {unit}".rstrip(), element=element, value=value)
+    return float(value)
+
+
 def gain_between(element: str, value: float) -> float:
     """A gain in (0, 1], checked.
 

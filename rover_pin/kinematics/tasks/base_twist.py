@@ -9,7 +9,7 @@ import numpy as np
 
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
-from rover_pin.kinematics.rows import Aim, number, weight
+from rover_pin.kinematics.rows import Aim, above, number, weight
 from rover_pin.numerics import Array
 
 LINEAR = ("forward", "left", "up")
@@ -47,7 +47,7 @@ class BaseTwist:
 
     def __post_init__(self) -> None:
         weight(self.name, self.weight)
-        number(f"{self.name}: lever", self.lever)
+        above(f"{self.name}: lever", self.lever)
         asked = self._asked(LINEAR + ANGULAR)
         for word, value in asked.items():
             number(f"{self.name}: {word}", value, "give a rate in m/s or rad/s")

@@ -9,7 +9,7 @@ import numpy as np
 
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant, Integers
-from rover_pin.kinematics.rows import Aim, gain_between, number, weight
+from rover_pin.kinematics.rows import Aim, above, gain_between, number, weight
 from rover_pin.numerics import Array
 from rover_pin.terrain import surface
 
@@ -40,10 +40,11 @@ class Clearance:
     def __post_init__(self) -> None:
         if (self.rate is None) == (self.goal is None):
             raise InputError("needs a rate or a goal, one of them", element=self.name)
-        for word in ("rate", "goal", "speed"):
+        for word in ("rate", "goal"):
             value = getattr(self, word)
             if value is not None:
                 number(f"{self.name}: {word}", value)
+        above(f"{self.name}: speed", self.speed)
         gain_between(f"{self.name}: gain", self.gain)
         weight(self.name, self.weight)
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
-from rover_pin.kinematics.rows import Aim, gain_between, number, weight
+from rover_pin.kinematics.rows import Aim, above, gain_between, number, weight
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class CenterOfMass:
             if value is not None:
                 number(f"{self.name}: {axis}", value)
         gain_between(f"{self.name}: gain", self.gain)
-        number(f"{self.name}: speed", self.speed)
+        above(f"{self.name}: speed", self.speed)
         weight(self.name, self.weight)
 
     def aim(self, at: Instant, dt: float) -> Aim:

@@ -10,7 +10,7 @@ import pinocchio as pin
 
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
-from rover_pin.kinematics.rows import Aim, gain_between, number, weight
+from rover_pin.kinematics.rows import Aim, above, gain_between, number, weight
 from rover_pin.numerics import Array
 
 
@@ -49,14 +49,15 @@ class FrameGoal:
             raise InputError("asks for nothing", element=self.name, cure="give position= or rotation=")
         if self.rotation is not None:
             given = np.array(self.rotation, dtype=np.float64)
-            if given.shape != (3, 3) or not np.allclose(given @ given.T, np.eye(3), atol=1e-6):
+            if given.shape != (3, 3) or not _is_rotation(given):
                 raise InputError(
                     "is no rotation matrix", element=f"{self.name}: rotation", value=given.tolist()
                 )
             given.setflags(write=False)
             object.__setattr__(self, "rotation", given)
         gain_between(f"{self.name}: gain", self.gain)
-        number(f"{self.name}: speed", self.speed)
+        above(f"{self.name}: speed", self.speed)
+        above(f"{self.name}: lever", self.lever)
         weight(self.name, self.weight)
 
     @property
@@ -79,3 +80,8 @@ class FrameGoal:
             weights = np.concatenate([weights, np.full(3, self.weight * self.lever**2)])
         most = np.where(np.arange(len(way)) < len(asked), self.speed, self.speed / self.lever)
         return Aim(rows, np.clip(self.gain * way / dt, -most, most), weights)
+
+
+def _is_rotation(given: Array) -> bool:
+    """Whether rows are unit and at right angles, and no mirror image."""
+    return np.allclose(given @ given.T, np.eye(3), atol=1e-6) and float(np.linalg.det(given)) > 0.0

@@ -9,7 +9,7 @@ import numpy as np
 
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
-from rover_pin.kinematics.rows import Aim, columns, gain_between, number, picks, weight
+from rover_pin.kinematics.rows import Aim, above, columns, gain_between, number, picks, weight
 from rover_pin.numerics import Array
 
 
@@ -39,7 +39,7 @@ class Posture:
             raise InputError("names no joint", element=self.name, cure="give joints={name: value}")
         for joint, value in self.joints.items():
             number(f"{self.name}: {joint}", value)
-        number(f"{self.name}: speed", self.speed)
+        above(f"{self.name}: speed", self.speed)
         gain_between(f"{self.name}: gain", self.gain)
         weight(self.name, self.weight)
         object.__setattr__(self, "joints", dict(self.joints))

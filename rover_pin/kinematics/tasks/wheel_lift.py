@@ -10,7 +10,7 @@ import numpy as np
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant, Integers
 from rover_pin.kinematics.rolling import contact_rows
-from rover_pin.kinematics.rows import Aim, gain_between, number, weight
+from rover_pin.kinematics.rows import Aim, above, gain_between, number, weight
 from rover_pin.numerics import Array
 
 LANDING = 0.005
@@ -46,10 +46,11 @@ class WheelLift:
     def __post_init__(self) -> None:
         if (self.rate is None) == (self.height is None):
             raise InputError("needs a rate or a height, one of them", element=self.name)
-        for word in ("rate", "height", "speed"):
+        for word in ("rate", "height"):
             value = getattr(self, word)
             if value is not None:
                 number(f"{self.name}: {word}", value)
+        above(f"{self.name}: speed", self.speed)
         gain_between(f"{self.name}: gain", self.gain)
         weight(self.name, self.weight)
 
@@ -85,8 +86,10 @@ def height(at: Instant, place: int) -> float:
 
 
 def height_row(at: Instant, which: Integers) -> Array:
-    """(k, nv) rate of `height` [m/s], but for what a turn of the wheel's axis adds."""
-    centers = at.centers[which]
+    """(k, nv) rate of `height` [m/s]: of the centre over the ground, and of the axis that leans."""
+    centers, axes, joints = at.centers[which], at.axes[which], at.bodies.packed.joints[which]
     slope = np.asarray(at.bodies.terrain.gradient(centers[:, 0], centers[:, 1])).reshape(-1, 2)
     along = np.column_stack([-slope, np.ones(len(centers))])
-    return at.rows(at.bodies.packed.joints[which], centers, along)
+    lean = at.bodies.packed.rings[which] * axes[:, 2] / np.sqrt(np.maximum(1.0 - axes[:, 2] ** 2, 1e-12))
+    leaning = np.column_stack([axes[:, 1], -axes[:, 0], np.zeros(len(axes))])  # axis x up: how its z changes
+    return at.rows(joints, centers, along) + lean[:, None] * at.turns(joints, leaning)
