@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from rover_pin.errors import InputError
+from rover_pin.errors import InputError, OffMapError
 from rover_pin.kinematics.conflict import Side, conflict
 from rover_pin.kinematics.instant import Bodies, Instant
 from rover_pin.kinematics.limits import (
@@ -18,7 +18,7 @@ from rover_pin.kinematics.limits import (
     rolling_contacts,
 )
 from rover_pin.kinematics.program import Program, assemble
-from rover_pin.kinematics.rows import Box, Limit, Task, number
+from rover_pin.kinematics.rows import Aim, Box, Limit, Task, above
 from rover_pin.kinematics.solution import Outcome, Solution
 from rover_pin.kinematics.solver import solve, solve_patiently
 from rover_pin.numerics import Array
@@ -50,8 +50,7 @@ class InverseKinematics:
     """
 
     def __init__(self, rover: Rover, terrain: Terrain, *, damping: float = 1e-5) -> None:
-        if not number("damping", damping) > 0.0:
-            raise InputError("must be above 0", element="damping", value=damping)
+        above("damping", damping)
         self.rover = rover
         self.bodies = Bodies(rover, terrain)
         size = max((shape.ring + shape.tread for shape in rover.shapes), default=0.0) or 0.1
@@ -65,7 +64,7 @@ class InverseKinematics:
         """
         if isinstance(where, Instant):
             return where
-        return self.bodies.at(where if isinstance(where, np.ndarray) else where.configuration)
+        return self.bodies.at(where.configuration if hasattr(where, "configuration") else where)
 
     def solve(
         self,
@@ -85,17 +84,22 @@ class InverseKinematics:
 
         Raises:
             InputError: dt not above 0, an unknown name in a task or limit, an entry that is not finite.
+            OffMapError: a wheel or foot that is not over the terrain's map.
         """
-        if not number("dt", dt) > 0.0:
-            raise InputError("must be above 0 s", element="dt", value=dt)
+        above("dt", dt, "s")
         at = self.at(where)
+        self._refuse_off_map(at)
         obeyed = usual_limits() if limits is None else limits
         aims = [task.aim(at, dt) for task in tasks]
         boxes = [cast("Box", limit) for limit in obeyed if hasattr(limit, "box")]
         found = [cast("Limit", limit).rows(at, dt) for limit in obeyed if hasattr(limit, "rows")]
         blocks = [block for block in found if block.names]
         program = assemble(at, aims, blocks, boxes, dt, self.damping)
-        answer = solve(program)
+        try:
+            answer = solve(program)
+        except InputError:
+            _refuse_aims(tasks, aims)
+            raise
         fighting: tuple[Side, ...] = ()
         if not answer.solved:
             fighting = conflict(program, self._bound_names(at, program, boxes, dt))
@@ -107,12 +111,25 @@ class InverseKinematics:
             return Solution(self.rover, outcome, still, {}, {}, residuals, fighting, program)
         velocity = answer.x[: program.nv]
         velocity.setflags(write=False)
-        slack = {}
+        slack: dict[str, float] = {}
         if len(program.bending):
             names = [program.row_names[row] for row in program.bending]
             slack = dict(zip(names, answer.x[program.nv :].tolist(), strict=True))
-        asked = {task.name: aim for task, aim in zip(tasks, aims, strict=True)}
+        for block in blocks:
+            if block.equation and block.bend < np.inf:
+                slack |= zip(block.names, (block.low - block.matrix @ velocity).tolist(), strict=True)
+        asked = _by_name(tasks, aims)
         return Solution(self.rover, Outcome.SOLVED, velocity, slack, asked, residuals, (), program)
+
+    def _refuse_off_map(self, at: Instant) -> None:
+        name = at.bodies.off_map(at)
+        if name is not None:
+            xmin, xmax, ymin, ymax = at.bodies.terrain.extent
+            raise OffMapError(
+                "is not over the map",
+                element=name,
+                cure=f"the map spans x {xmin:g} to {xmax:g} m, y {ymin:g} to {ymax:g} m",
+            )
 
     def _bound_names(
         self, at: Instant, program: Program, boxes: Sequence[Box], dt: float
@@ -126,3 +143,23 @@ class InverseKinematics:
                 if high[i] == program.ceiling[i] and np.isfinite(high[i]):
                     names[i, True] = each.bound_name(dof, True)
         return names
+
+
+def _by_name(tasks: Sequence[Task], aims: Sequence[Aim]) -> dict[str, Aim]:
+    """What each task asked for; further ones of a name are numbered."""
+    asked: dict[str, Aim] = {}
+    for task, aim in zip(tasks, aims, strict=True):
+        alike = sum(other.name == task.name for other in tasks[: len(asked)])
+        asked[f"{task.name} {alike + 1}" if alike else task.name] = aim
+    return asked
+
+
+def _refuse_aims(tasks: Sequence[Task], aims: Sequence[Aim]) -> None:
+    """Say which task asks for something that is no number.
+
+    Raises:
+        InputError: named by the task.
+    """
+    for task, aim in zip(tasks, aims, strict=True):
+        if not all(np.isfinite(part).all() for part in (aim.matrix, aim.target, aim.weight)):
+            raise InputError("has an entry that is no finite number", element=task.name)

@@ -267,6 +267,7 @@ def expand(
     """
     n, e, m = gradient.shape[0], right.shape[0], matrix.shape[0]
     x, y, z = np.zeros(n), np.zeros(e), np.zeros(m + n)
+    open_ = np.ones(n, dtype=np.bool_)
     for i in range(e):
         if pins[i] >= 0:
             x[pins[i]] = right[i]
@@ -278,8 +279,9 @@ def expand(
     z[:m] = z_part[:m]
     for i in range(e):
         c = pins[i]
-        if c < 0:
+        if c < 0 or not open_[c]:
             continue
+        open_[c] = False  # of several that pin a coordinate one has the multiplier
         left = gradient[c]
         for d in range(n):
             left += hessian[c, d] * x[d]

@@ -9,8 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 from proxsuite import proxqp
 
+from rover_pin.kinematics.instant import Integers
 from rover_pin.kinematics.kernels import beyond, expand, outside, reduce, unbalanced
 from rover_pin.kinematics.program import Program, refuse
 from rover_pin.numerics import Array
@@ -69,6 +71,8 @@ def _attempt(program: Program, guess: Any, iterations: int) -> Answer:
     )
     if not good:
         refuse(p)
+    if not len(free):
+        return _checked(p, free, rest, np.zeros(0), np.zeros(len(rest)), np.zeros(len(p.low)), 0)
     qp = proxqp.dense.QP(len(free), len(rest), len(p.low), True, _DENSE, _BACKEND)
     settings = qp.settings
     settings.initial_guess = guess
@@ -81,9 +85,15 @@ def _attempt(program: Program, guess: Any, iterations: int) -> Answer:
     qp.init(*parts, compute_preconditioner=False)
     qp.solve()
     found = qp.results
-    y_part, z_part = found.y / WEIGHT, found.z / WEIGHT
+    return _checked(p, free, rest, found.x, found.y / WEIGHT, found.z / WEIGHT, int(found.info.iter))
+
+
+def _checked(
+    p: Program, free: Integers, rest: Integers, part: Array, y_part: Array, z_part: Array, iterations: int
+) -> Answer:
+    """The whole program's answer, its conditions worked out again."""
     x, y, z = expand(
-        p.hessian, p.gradient, p.equations, p.right, p.matrix, p.pins, free, rest, found.x, y_part, z_part
+        p.hessian, p.gradient, p.equations, p.right, p.matrix, p.pins, free, rest, part, y_part, z_part
     )
     primal = max(
         outside(p.equations, p.right, p.right, x),
@@ -93,7 +103,7 @@ def _attempt(program: Program, guess: Any, iterations: int) -> Answer:
     dual = unbalanced(
         p.hessian, p.gradient, p.equations, p.matrix, p.low, p.high, p.floor, p.ceiling, x, y, z
     )  # fmt: skip
-    return Answer(x, primal <= ACCEPTED and dual <= ACCEPTED, primal, dual, int(found.info.iter))
+    return Answer(x, primal <= ACCEPTED and dual <= ACCEPTED, primal, dual, iterations)
 
 
 _DENSE = proxqp.dense.HessianType.Dense

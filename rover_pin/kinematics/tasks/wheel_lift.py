@@ -66,11 +66,11 @@ class WheelLift:
             InputError: no wheel of that name.
         """
         which = at.index([self.wheel])
-        above = height(at, int(which[0]))
-        if self.height == 0.0 and above < LANDING:
+        here = height(at, int(which[0]))
+        if self.height == 0.0 and here < LANDING:
             row, left = contact_rows(at, which, ("normal",)), -float(at.contacts[which[0], 0])
         else:
-            row, left = height_row(at, which), (self.height or 0.0) - above
+            row, left = height_row(at, which), (self.height or 0.0) - here
         target = self.rate
         if target is None:
             target = min(max(self.gain * left / dt, -self.speed), self.speed)
