@@ -122,9 +122,7 @@ def creeping(
     return Mode(CREEPING, (up, down) * times)
 
 
-def wheel_lifting(
-    layout: Layout, speeds: Speeds, wheels: Sequence[str], height: float, way: float, landing: float = 0.0
-) -> Mode:
+def wheel_lifting(layout: Layout, speeds: Speeds, wheels: Sequence[str], height: float, way: float) -> Mode:
     """Engage the clutches, lift wheels, roll a way [m], let them down, release.
 
     Args:
@@ -133,7 +131,6 @@ def wheel_lifting(
         wheels: one, or two of different sides.
         height: m over the ground below.
         way: m rolled while they hang; 0 for none.
-        landing: gap [m] at which they come to stand; 0.
     """
     lifted = tuple(wheels)
     clutches = tuple(_clutch(layout, wheel) for wheel in lifted)
@@ -141,7 +138,7 @@ def wheel_lifting(
     if way != 0.0:
         twist = Twist(forward=math.copysign(speeds.roll, way))
         actions.append(Drive(layout, twist, abs(way), label="roll with lifted wheels"))
-    actions += [LiftWheels(layout, lifted, landing, speeds.lift), Release(clutches)]
+    actions += [LiftWheels(layout, lifted, 0.0, speeds.lift), Release(clutches)]
     return Mode(SINGLE_LIFT if len(lifted) == 1 else DOUBLE_LIFT, tuple(actions))
 
 

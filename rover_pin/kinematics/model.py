@@ -53,15 +53,25 @@ def structure(
     Raises:
         InputError: a wheel or clutch that the rover does not have.
     """
-    limits: list[Limit] = [
-        CouplingsKept(),
-        LoopsClosed(),
-        Clutch(dict(clutches or {})),
-        ContactKept(tuple(lifted), tuple(directions)),
-    ]
-    blocks = [limit.rows(at, 1.0) for limit in limits]
-    names = tuple(name for block in blocks for name in block.names)
-    return names, np.vstack([block.matrix for block in blocks])
+    levels = _levels(at, lifted, clutches, directions)
+    return tuple(name for names, _ in levels for name in names), np.vstack([rows for _, rows in levels])
+
+
+def _levels(
+    at: Instant, lifted: Sequence[str], clutches: Mapping[str, float] | None, directions: Sequence[str]
+) -> list[tuple[tuple[str, ...], Array]]:
+    """Names and rows of what holds, what gives way last first: mechanism, contacts, sliding."""
+    levels: list[list[Limit]] = [[CouplingsKept(), LoopsClosed(), Clutch(dict(clutches or {}))]]
+    for on_ground in (True, False):
+        words = tuple(word for word in directions if (word == "normal") is on_ground)
+        levels.append([ContactKept(tuple(lifted), words)] if words else [])
+    found = []
+    for limits in levels:
+        blocks = [block for limit in limits if (block := limit.rows(at, 1.0)).names]
+        if blocks:
+            names = tuple(name for block in blocks for name in block.names)
+            found.append((names, np.vstack([block.matrix for block in blocks])))
+    return found or [((), np.zeros((0, at.rover.model.nv)))]
 
 
 def complete(
@@ -73,6 +83,9 @@ def complete(
     directions: Sequence[str] = DIRECTIONS,
 ) -> Motion:
     """The velocity that has the known rates, and slides least where they do not agree.
+
+    Known rates come first, then couplings, loops and clutches, then that wheels neither leave the ground nor
+    enter it, then that they do not slide; each as near as what comes before lets it, by least squares.
 
     Args:
         at: the instant.
@@ -86,25 +99,17 @@ def complete(
         InputError: an unknown name, or a rate that is no finite number.
         MechanismError: known rates that contradict one another by themselves.
     """
-    names, rows = structure(at, lifted, clutches, directions)
-    told, sides = _known_rows(at, known)
-    held, rest = _null(told, sides)
-    undetermined: tuple[str, ...] = ()
-    if rest.shape[1] == 0:
-        velocity = held
-    else:
-        left, values, right = np.linalg.svd(rows @ rest, full_matrices=True)
-        rank = int(np.count_nonzero(values > RANK * max(float(np.max(values, initial=0.0)), 1e-300)))
-        push = left[:, :rank].T @ (-rows @ held)
-        velocity = held + rest @ (right[:rank].T @ (push / values[:rank]))
-        open_ = rest @ right[rank:].T
-        loose = np.flatnonzero(np.linalg.norm(open_, axis=1) > 1e-6)
-        undetermined = tuple(at.rover.dof_names[i] for i in loose)
-    missed = np.abs(rows @ velocity)
-    worst = int(np.argmax(missed)) if len(missed) else -1
-    if worst < 0:
-        return Motion(frozen(velocity), 0.0, "", undetermined)
-    return Motion(frozen(velocity), float(missed[worst]), names[worst], undetermined)
+    levels = _levels(at, lifted, clutches, directions)
+    velocity, rest = _null(*_known_rows(at, known))
+    for _, rows in levels:
+        velocity, rest = _nearer(rows, velocity, rest)
+    loose = np.flatnonzero(np.linalg.norm(rest, axis=1) > 1e-6)
+    undetermined = tuple(at.rover.dof_names[i] for i in loose)
+    missed = {
+        name: abs(rate) for names, rows in levels for name, rate in zip(names, rows @ velocity, strict=True)
+    }
+    worst = max(missed, key=lambda name: missed[name], default="")
+    return Motion(frozen(velocity), float(missed.get(worst, 0.0)), worst, undetermined)
 
 
 def forward(
@@ -163,3 +168,13 @@ def _null(rows: Array, sides: Array) -> tuple[Array, Array]:
             "known rates contradict one another", element="known", cure="leave some of them out"
         )
     return held, right[rank:].T
+
+
+def _nearer(rows: Array, velocity: Array, rest: Array) -> tuple[Array, Array]:
+    """The velocity moved within `rest` (nv, f) to the least |rows v|, and a basis of what stays free."""
+    if not (rest.shape[1] and len(rows)):
+        return velocity, rest
+    left, values, right = np.linalg.svd(rows @ rest, full_matrices=True)
+    rank = int(np.count_nonzero(values > RANK * float(np.linalg.norm(rows))))
+    push = left[:, :rank].T @ (-rows @ velocity)
+    return velocity + rest @ (right[:rank].T @ (push / values[:rank])), rest @ right[rank:].T

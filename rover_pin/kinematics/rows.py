@@ -97,13 +97,13 @@ class Box(Protocol):
         """What people read where that bound fights a row."""
 
 
-def weight(element: str, value: float) -> float:
+def weight(element: str, value: float, *, may_be_infinite: bool = False) -> float:
     """A weight, checked.
 
     Raises:
         InputError: it is not finite, or below 0.
     """
-    if not math.isfinite(value) or value < 0.0:
+    if math.isnan(value) or value < 0.0 or (math.isinf(value) and not may_be_infinite):
         raise InputError("a weight is a finite number, at least 0", element=element, value=value)
     return float(value)
 

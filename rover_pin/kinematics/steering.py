@@ -39,11 +39,18 @@ class Twist:
         forward: m/s.
         left: m/s.
         yaw: rad/s.
+
+    Raises:
+        InputError: something that is no finite number.
     """
 
     forward: float = 0.0
     left: float = 0.0
     yaw: float = 0.0
+
+    def __post_init__(self) -> None:
+        for word in ("forward", "left", "yaw"):
+            number(f"twist: {word}", getattr(self, word))
 
     @classmethod
     def about(cls, x: float, y: float, yaw: float) -> Twist:

@@ -32,10 +32,7 @@ class Engage(Action):
         Raises:
             InputError: a joint that cannot be locked, or that moves: its clutch would tear.
         """
-        for joint in self.joints:
-            if joint not in at.rover.lockable:
-                cure = nearest(joint, at.rover.lockable)
-                raise InputError("is no joint that can be locked", element=joint, cure=cure)
+        _refuse_unlockable(at, self.joints)
         engage(self.joints, {joint: float(start.velocity[at.rover.column[joint]]) for joint in self.joints})
 
     def grip(self, start: Start) -> Grip:
@@ -53,8 +50,8 @@ class Engage(Action):
         return 0.0
 
     def undone(self, start: Start, now: Start) -> Action:
-        """Release them."""
-        return Release(self.joints)
+        """Release those that were not engaged before."""
+        return Release(tuple(joint for joint in self.joints if joint not in start.grip.clutches))
 
 
 @dataclass(frozen=True)
@@ -73,11 +70,12 @@ class Release(Action):
         return f"release {' and '.join(self.joints)}"
 
     def check(self, at: Instant, start: Start) -> None:
-        """No wheel hangs.
+        """The joints can be locked and no wheel hangs.
 
         Raises:
-            InputError: a wheel is still lifted: it would fall.
+            InputError: a joint that has no clutch, or a wheel that is still lifted: it would fall.
         """
+        _refuse_unlockable(at, self.joints)
         if start.grip.lifted:
             raise InputError("hangs and would fall", element=" and ".join(start.grip.lifted),
                              cure="let it down before the clutch is released")  # fmt: skip
@@ -96,5 +94,12 @@ class Release(Action):
         return 0.0
 
     def undone(self, start: Start, now: Start) -> Action:
-        """Engage them."""
-        return Engage(self.joints)
+        """Engage those that were engaged before."""
+        return Engage(tuple(joint for joint in self.joints if joint in start.grip.clutches))
+
+
+def _refuse_unlockable(at: Instant, joints: tuple[str, ...]) -> None:
+    for joint in joints:
+        if joint not in at.rover.lockable:
+            raise InputError("is no joint that can be locked", element=joint,
+                             cure=nearest(joint, at.rover.lockable))  # fmt: skip

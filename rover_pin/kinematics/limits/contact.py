@@ -10,7 +10,7 @@ import numpy as np
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Bodies, Instant, Integers
 from rover_pin.kinematics.rolling import DIRECTIONS, contact_rows
-from rover_pin.kinematics.rows import Rows, equations, gain_between
+from rover_pin.kinematics.rows import Rows, equations, gain_between, weight
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class ContactKept:
         bend: weight of a (m/s) squared, see `Rows`.
 
     Raises:
-        InputError: an unknown direction, or a gain outside (0, 1].
+        InputError: no or an unknown direction, a gain outside (0, 1], or a bend that is no weight.
     """
 
     lifted: tuple[str, ...] = ()
@@ -39,6 +39,9 @@ class ContactKept:
 
     def __post_init__(self) -> None:
         gain_between("contact: gain", self.gain)
+        weight("contact: bend", self.bend, may_be_infinite=True)
+        if not self.directions:
+            raise InputError("keeps no direction", element="contact", cure=f"known: {', '.join(DIRECTIONS)}")
         for word in self.directions:
             if word not in DIRECTIONS:
                 raise InputError("is no direction of a contact", element="contact", value=word,
