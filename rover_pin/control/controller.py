@@ -154,7 +154,10 @@ class Controller:
         if execution.finished(at):
             self.grip = execution.grip_after
             return self._rest(self.supervisor.report(finished=True), execution.action.name)
-        return self._move(execution, at, loads)
+        try:
+            return self._move(execution, at, loads)
+        except InputError as error:  # the edge of the map, a wheel that can be steered no further
+            return self._rest(self.supervisor.report(fault=str(error)))
 
     def _move(self, execution: Execution, at: Instant, loads: Mapping[str, float] | None) -> Cycle:
         command = execution.command(at)

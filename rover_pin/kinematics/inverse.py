@@ -29,9 +29,23 @@ if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
 
 
-def usual_limits() -> tuple[Limit | Box, ...]:
-    """What holds for every rover that rolls: couplings, loops, contacts, joints' places and speeds."""
-    return CouplingsKept(), LoopsClosed(), *rolling_contacts(), JointLimits(), SpeedLimits()
+HANGS = 1e-3
+"""m: a wheel or foot this far off the ground does not stand, where nobody says which do."""
+
+
+def usual_limits(lifted: tuple[str, ...] = ()) -> tuple[Limit | Box, ...]:
+    """What holds for every rover that rolls: couplings, loops, contacts, joints' places and speeds.
+
+    Args:
+        lifted: wheels and feet that do not stand.
+    """
+    return CouplingsKept(), LoopsClosed(), *rolling_contacts(lifted), JointLimits(), SpeedLimits()
+
+
+def hanging(at: Instant) -> tuple[str, ...]:
+    """Wheels and feet that are off the ground; let down, they count as standing once they are within HANGS."""
+    gaps = at.contacts[:, 0].tolist()
+    return tuple(name for name, gap in zip(at.bodies.names, gaps, strict=True) if gap > HANGS)
 
 
 class InverseKinematics:
@@ -79,7 +93,7 @@ class InverseKinematics:
         Args:
             where: a stance, an instant, or q (nv,).
             tasks: what is wanted.
-            limits: what is obeyed; silent: `usual_limits()`.
+            limits: what is obeyed; silent: `usual_limits(hanging(at))`.
             dt: s.
 
         Raises:
@@ -89,7 +103,7 @@ class InverseKinematics:
         above("dt", dt, "s")
         at = self.at(where)
         self._refuse_off_map(at)
-        obeyed = usual_limits() if limits is None else limits
+        obeyed = usual_limits(hanging(at)) if limits is None else limits
         aims = [task.aim(at, dt) for task in tasks]
         boxes = [cast("Box", limit) for limit in obeyed if hasattr(limit, "box")]
         found = [cast("Limit", limit).rows(at, dt) for limit in obeyed if hasattr(limit, "rows")]
