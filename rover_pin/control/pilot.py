@@ -121,7 +121,8 @@ def _peaks(given: Mapping[str, float], names: Sequence[str] | Mapping[str, float
             )  # fmt: skip
     for name in names:
         if name not in given:
-            raise InputError("the trial gives no index of it", element=name, cure="let it tell the largest one")
+            cure = "let it tell the largest one"
+            raise InputError("the trial gives no index of it", element=name, cure=cure)
         if math.isnan(given[name]):
             raise InputError("the trial gives NaN for its index", element=name, cure="give inf if it failed")
     return {name: float(given[name]) for name in names}

@@ -1,10 +1,10 @@
 """Motion constraints in a cycle's program: the command is moved no further than they ask for.
 
-u* = argmin |u - u_nom|^2_W subject to what always holds and to every motion constraint (the HIT-MRII paper, eq. 41,
-whose text did not survive; reconstructed). u_nom and W are the tasks of the action under way. A constraint on
-velocities is a row, |g v + c| <= kappa limit. One on posture is a row on its rate, on both sides,
--gamma (kappa limit + eta) <= d eta/dq v <= gamma (kappa limit - eta), so that it is approached ever slower
-and not passed. Constraints on loads and on which wheels hang are read, not steered by.
+u* = argmin |u - u_nom|^2_W subject to what always holds and to every motion constraint: eq. 41 of the
+HIT-MRII paper, whose text did not survive, reconstructed. u_nom and W are the tasks of the action under way.
+A constraint on velocities is a row, |g v + c| <= kappa limit. One on posture is a row on its rate, on both
+sides, -gamma (kappa limit + eta) <= d eta/dq v <= gamma (kappa limit - eta), so that it is approached ever
+slower and not passed. Constraints on loads and on which wheels hang are read, not steered by.
 """
 
 from __future__ import annotations

@@ -34,9 +34,8 @@ def settled_loads(
     clutches = tuple(locked)
     for joint in clutches:
         if joint not in rover.lockable:
-            raise InputError(
-                "no joint that can be locked", element="locked", value=joint, cure=nearest(joint, rover.lockable)
-            )
+            cure = nearest(joint, rover.lockable)
+            raise InputError("no joint that can be locked", element="locked", value=joint, cure=cure)
     drives = {wheel.drive for wheel in rover.wheels}
     given = [name for name in (*rover.actuated, *clutches) if name not in drives]
 

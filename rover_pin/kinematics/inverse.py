@@ -43,7 +43,7 @@ def usual_limits(lifted: tuple[str, ...] = ()) -> tuple[Limit | Box, ...]:
 
 
 def hanging(at: Instant) -> tuple[str, ...]:
-    """Wheels and feet that are off the ground; let down, they count as standing once they are within HANGS."""
+    """Wheels and feet that are off the ground; let down, they count as standing within HANGS of it."""
     gaps = at.contacts[:, 0].tolist()
     return tuple(name for name, gap in zip(at.bodies.names, gaps, strict=True) if gap > HANGS)
 

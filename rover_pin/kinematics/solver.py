@@ -23,8 +23,12 @@ PRECISION = 1e-9
 ACCEPTED = 1e-7
 """m/s or rad/s that rows may be missed by; share of the gradient's size that stationarity may."""
 
-WEIGHT = 1e3
+WEIGHT = 1e2
 """Times the cost: the solver's precision is absolute, and what damping alone decides would be left vague."""
+
+SOFTNESS = 1e-7
+"""Of equations in the solver's first step: ten thousand times less than its own default, with which wishes of
+unlike weights take ten steps and more; with this most programs take one."""
 
 OPEN = 1e20
 """ProxQP's word for no bound."""
@@ -80,6 +84,7 @@ def _attempt(program: Program, guess: Any, iterations: int) -> Answer:
     settings.max_iter_in = ITERATIONS
     settings.eps_abs = PRECISION
     settings.eps_rel = 0.0
+    settings.default_mu_eq = SOFTNESS
     parts[0] *= WEIGHT
     parts[1] *= WEIGHT
     qp.init(*parts, compute_preconditioner=False)

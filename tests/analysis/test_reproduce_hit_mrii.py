@@ -34,7 +34,7 @@ def test_eq_42():
 
 
 def test_task_6(brick):
-    """All three right wheels pass the brick; at every sample the statics have the rover where the motion does."""
+    """All three right wheels pass the brick; the statics have the rover where the motion does."""
     assert brick.status == "done", brick.reason
     assert np.nanmax(brick.apart) < 1e-5
     assert np.nanmax(brick.residual) < 1e-6

@@ -1,4 +1,4 @@
-"""HIT-MRII's sides, motions that keep contacts, finite differences: what tests of motion constraints share."""
+"""HIT-MRII's sides, motions that keep contacts, finite differences: what tests of control share."""
 
 import numpy as np
 
@@ -17,7 +17,7 @@ def sides_of(count):
 
 
 def motion(at, wanted, lifted=(), locked=(), held=()):
-    """dq/dt that keeps contacts without sliding, couplings, clutches and held joints, with rates as wanted."""
+    """dq/dt that keeps contacts without sliding, couplings, clutches, held joints, with rates as wanted."""
     which = np.array([i for i, name in enumerate(at.bodies.names) if name not in lifted])
     points, joints = at.contacts[which, 1:4], at.bodies.rolling_joints[which]
     rows = [at.rows(joints, points, np.tile(axis, (len(which), 1))) for axis in np.eye(3)]

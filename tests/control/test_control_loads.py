@@ -73,7 +73,7 @@ def test_refusals(at, constraints, still, loads, lifted, message):
 
 def test_gradient_needs_the_statics(hit, at, still):
     plain = motion_constraints(hit, HIT, ["load_deviation"])["load_deviation"]
-    with pytest.raises(InputError, match=r"load_deviation: has no gradient without the statics; give `Options"):
+    with pytest.raises(InputError, match=r"load_deviation: has no gradient without the statics; give `Opt"):
         plain.gradient(Now(at, still, still, (), TASK_6))
 
 

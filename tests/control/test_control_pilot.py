@@ -58,7 +58,8 @@ def test_no_feasible_margin():
     report = pilot(trial, {"load_difference": 0.9, "height": 0.8}, step=0.3, least=0.2)
     assert not report.feasible
     assert report.exhausted == ("load_difference",)
-    assert [trial.margins["load_difference"] for trial in report.trials] == pytest.approx([0.9, 0.6, 0.3, 0.2])
+    margins = [trial.margins["load_difference"] for trial in report.trials]
+    assert margins == pytest.approx([0.9, 0.6, 0.3, 0.2])
     assert str(report) == (
         "no feasible margin after 4 trials: load_difference still comes to 1.07 of its limit "
         "at the least margin, 0.2"

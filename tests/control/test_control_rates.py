@@ -52,7 +52,7 @@ def turning(hit, level, q, v, wheel, step=1e-5):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_coordination_by_its_words(hit, level, constraints, raised, still, seed):
-    """v_F - v_M - d(d_fm)/dt with turnings and distances from two configurations, level ground, no yaw rate."""
+    """v_F - v_M - d(d_fm)/dt, turnings and distances from two configurations, level ground, no yaw rate."""
     rng = np.random.default_rng(seed)
     q, v = np.array(raised.configuration), 0.1 * rng.standard_normal(hit.model.nv)
     v[3] = 0.0
@@ -153,9 +153,7 @@ def test_rocker_speed_at_a_standstill(hit, level, raised, still):
     assert right == 0.0
 
 
-@pytest.mark.parametrize(
-    ("lifted", "locked"), [((), ()), (("RF",), ("R_bogie",)), (("LM",), ("L_bogie",))]
-)
+@pytest.mark.parametrize(("lifted", "locked"), [((), ()), (("RF",), ("R_bogie",)), (("LM",), ("L_bogie",))])
 def test_reshaping_by_statics(hit, constraints, still, lifted, locked):
     """d(d_fm)/dw from stances with one rocker a little on, uneven ground: no Jacobian in it."""
     stations, bodies = constraints["rocker_speed"].stations, Bodies(hit, ROUGH)

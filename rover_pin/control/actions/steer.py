@@ -9,13 +9,13 @@ from rover_pin.control.actions.action import Action, Command, Start, still
 from rover_pin.control.layout import Layout
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Instant
+from rover_pin.kinematics.limits import Held
 from rover_pin.kinematics.rows import Box, Limit, columns, number
 from rover_pin.kinematics.steering import Twist, steering_for, steering_joints
-from rover_pin.kinematics.tasks import BaseTwist, Posture
+from rover_pin.kinematics.tasks import Posture
 
-STAY = 1e5
-"""Weight of the base's motion squared while wheels turn: above that of side slip, or leaning steering axes
-would walk it away."""
+STAY = ("base_x", "base_y", "base_yaw")
+"""What holds while wheels turn: every wheel has its drive to roll along by, where its steering axis leans."""
 
 
 @dataclass(frozen=True)
@@ -104,14 +104,12 @@ class Steer(Action):
         at.rover.resolve_posture(self.angles)
 
     def limits(self, start: Start) -> tuple[Limit | Box, ...]:
-        """Rockers hold."""
-        return still(start, self.layout, tuple(self.angles))
+        """The base stays, rockers hold."""
+        return (Held(STAY, "standing"), *still(start, self.layout, tuple(self.angles)))
 
     def command(self, at: Instant, start: Start, dt: float) -> Command:
-        """The angles; leaning steering axes carry the base a little, which it resists."""
-        still_there = BaseTwist(forward=0.0, left=0.0, yaw=0.0, weight=STAY)
-        wanted = Posture(self.angles, speed=self.speed, gain=1.0, name="steering")
-        return Command((wanted, still_there))
+        """The angles."""
+        return Command((Posture(self.angles, speed=self.speed, gain=1.0, name="steering"),))
 
     def left(self, at: Instant, start: Start) -> float:
         """rad: of the joint that has the most to go."""

@@ -35,9 +35,8 @@ class OfLoads(MotionConstraint):
             InputError: loads are not known, miss a standing wheel's or are not finite; or no wheel stands.
         """
         if now.loads is None:
-            raise InputError(
-                "needs the wheels' loads", element=self.name, cure="give `loads`, or leave it out of this cycle"
-            )
+            cure = "give `loads`, or leave it out of this cycle"
+            raise InputError("needs the wheels' loads", element=self.name, cure=cure)
         return np.array([self._of(now.loads, now.lifted)])
 
     def gradient(self, now: Now) -> Array:
@@ -73,7 +72,8 @@ class OfLoads(MotionConstraint):
             raise InputError("no wheel stands", element=self.name, value=", ".join(lifted))
         for wheel in standing:
             if wheel not in loads:
-                raise InputError("has no load", element=wheel, cure=f"{self.name} needs every standing wheel's")
+                cure = f"{self.name} needs every standing wheel's"
+                raise InputError("has no load", element=wheel, cure=cure)
             if not math.isfinite(loads[wheel]):
                 raise InputError("is no finite number", element=f"load of {wheel}", value=loads[wheel])
         return self.statistic(np.array([loads[wheel] for wheel in standing]))

@@ -15,7 +15,7 @@ class RockerSpeed(OfRates):
 
     w is the rocker's rate, d(d_fm)/dt = w d(d_fm)/dw with the wheels kept on the ground (`Reshaping`), and
     the side's speed the mean commanded one of its wheels' centres along the heading, at least the floor. At 1
-    the distance of front and second wheel changes as fast as the side drives, and one of the two stands still.
+    the distance of front and second wheel changes as fast as the side drives, and one of them stands still.
     """
 
     name = "rocker_speed"
