@@ -95,6 +95,12 @@ class Bodies:
             dtype=np.int64,
         )
 
+    @cached_property
+    def can_hold(self) -> NDArray[np.bool_]:
+        """(s,) whether a shape resists along its rolling direction: feet, wheels with a joint to turn by."""
+        wheels = self.rover.wheels
+        return np.array([i >= len(wheels) or wheels[i].drive is not None for i in range(len(self.names))])
+
     def at(self, q: Array) -> Instant:
         """The rover at q (nv,), copied.
 

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
 from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Bodies, Instant, Integers
-from rover_pin.kinematics.rolling import DIRECTIONS, contact_rows
+from rover_pin.kinematics.rolling import DIRECTIONS
 from rover_pin.kinematics.rows import Rows, equations, gain_between, weight
 
 
 @dataclass(frozen=True)
 class ContactKept:
     """Rows of what stands: along the normal, along the rolling direction, sideways.
+
+    A wheel without a turning joint of its own, which a track carries or a simple URDF fixes, rolls freely.
 
     Attributes:
         lifted: wheels and feet that do not stand.
@@ -33,9 +36,7 @@ class ContactKept:
     directions: tuple[str, ...] = DIRECTIONS
     gain: float = 0.5
     bend: float = math.inf
-    _kept: list[tuple[Bodies, Integers, tuple[str, ...]]] = field(
-        default_factory=list, repr=False, compare=False
-    )
+    _kept: list[tuple[Bodies, Standing]] = field(default_factory=list, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         gain_between("contact: gain", self.gain)
@@ -55,28 +56,49 @@ class ContactKept:
         Raises:
             InputError: a lifted wheel that the rover does not have.
         """
-        which, names = self._standing(at)
-        matrix = contact_rows(at, which, self.directions)
+        blocks, names, normals = self._standing(at)
+        matrix = np.concatenate([at.contact_rows[place][which] for place, which in blocks])
         rate = np.zeros(len(matrix))
-        if "normal" in self.directions:
-            first = self.directions.index("normal") * len(which)
+        if normals is not None:
+            first, which = normals
             rate[first : first + len(which)] = -self.gain / dt * at.contacts[which, 0]
         return equations(names, matrix, rate, self.bend)
 
-    def _standing(self, at: Instant) -> tuple[Integers, tuple[str, ...]]:
-        """Shapes that stand, and the names of their rows; kept, as they are the same in every step."""
+    def _standing(self, at: Instant) -> Standing:
+        """Shapes of each direction's rows, and names; kept, as they are the same in every step."""
         if not self._kept or self._kept[0][0] is not at.bodies:
             away = set(at.index(self.lifted).tolist())
             shapes = at.bodies.names
-            which = np.array([i for i in range(len(shapes)) if i not in away], dtype=np.int64)
-            names = tuple(f"{_WORDS[word]} of {shapes[i]}" for word in self.directions for i in which)
-            self._kept[:] = [(at.bodies, which, names)]
-        return self._kept[0][1:]
+            stands = [i for i in range(len(shapes)) if i not in away]
+            rolls = [i for i in stands if at.bodies.can_hold[i]]
+            blocks, normals = [], None
+            names: list[str] = []
+            for word in self.directions:
+                which = np.array(rolls if word == "roll" else stands, dtype=np.int64)
+                normals = (len(names), which) if word == "normal" else normals
+                blocks.append((DIRECTIONS.index(word), which))
+                names += [f"{_WORDS[word]} of {shapes[i]}" for i in which]
+            self._kept[:] = [(at.bodies, Standing(blocks, tuple(names), normals))]
+        return self._kept[0][1]
 
 
-SLIP = 1e3
-"""Weight of side slip squared. Wheels scrub sideways where the ground or a lifted side makes the body roll;
-where it does not, and steering agrees, this is no different from a row that does not bend."""
+class Standing(NamedTuple):
+    """Rows of what stands.
+
+    Attributes:
+        blocks: direction and shapes of each block.
+        names: of all rows.
+        normals: first row and shapes of the rows along the normal, where there are some.
+    """
+
+    blocks: list[tuple[int, Integers]]
+    names: tuple[str, ...]
+    normals: tuple[int, Integers] | None
+
+
+SLIP = 1e-2
+"""Weight of side slip squared, small beside a task's: wheels scrub sideways where uneven ground, a lifted
+side or a rover that has to skid leaves nothing else. Where steering agrees they do not slip."""
 
 
 def rolling_contacts(lifted: tuple[str, ...] = (), slip: float = SLIP) -> tuple[ContactKept, ContactKept]:
@@ -84,8 +106,7 @@ def rolling_contacts(lifted: tuple[str, ...] = (), slip: float = SLIP) -> tuple[
 
     Args:
         lifted: wheels and feet that do not stand.
-        slip: weight of side slip squared; inf forbids it. A rover that has to skid to turn wants less than
-            its wish to turn weighs.
+        slip: weight of side slip squared; inf forbids it.
     """
     return (
         ContactKept(lifted, directions=("normal", "roll")),
