@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from rover_pin.terrain import Terrain
 
 
-HANGS = 1e-3
+HANGS = 1e-4
 """m: a wheel or foot this far off the ground does not stand, where nobody says which do."""
 
 
@@ -57,7 +57,8 @@ class InverseKinematics:
     Args:
         rover: what moves.
         terrain: on what.
-        damping: weight of a (m/s) squared of every coordinate; of an angle it counts with the wheels' size.
+        damping: weight of a (m/s) squared of every coordinate; of an angle it counts with the wheels' radius,
+            where there are only feet with half their distance.
 
     Raises:
         InputError: a rover that touches nothing, or a damping that is not above 0.
@@ -67,7 +68,8 @@ class InverseKinematics:
         above("damping", damping)
         self.rover = rover
         self.bodies = Bodies(rover, terrain)
-        size = max((shape.ring + shape.tread for shape in rover.shapes), default=0.0) or 0.1
+        legs = 0.5 * rover.wheel_span or 0.1
+        size = max((wheel.radius for wheel in rover.wheels), default=legs)
         self.damping: Array = damping * np.where(rover.turning, size**2, 1.0)
 
     def at(self, where: Stance | Instant | Array) -> Instant:

@@ -17,18 +17,39 @@ from rover_pin.kinematics.kernels import beyond, expand, outside, reduce, unbala
 from rover_pin.kinematics.program import Program, refuse
 from rover_pin.numerics import Array
 
-ITERATIONS = 100
-PATIENCE = 10
 PRECISION = 1e-9
 ACCEPTED = 1e-7
 """m/s or rad/s that rows may be missed by; share of the gradient's size that stationarity may."""
 
-WEIGHT = 1e2
-"""Times the cost: the solver's precision is absolute, and what damping alone decides would be left vague."""
 
-SOFTNESS = 1e-7
-"""Of equations in the solver's first step: ten thousand times less than its own default, with which wishes of
-unlike weights take ten steps and more; with this most programs take one."""
+@dataclass(frozen=True)
+class Manner:
+    """How the solver is called.
+
+    Attributes:
+        weight: times the cost. Its precision is absolute: at 1 it leaves vague what damping alone decides, at
+            1000 it fails where tasks ask for a thousand times what limits allow.
+        softness: of equations in the first step. With the solver's own default, 1e-3, wishes of unlike weights
+            take ten steps and more; with ten thousand times less most programs take one.
+        scaled: whether the solver brings the rows to one scale first.
+        guess: where it starts.
+        steps: most outer iterations, and inner ones of each. What can be solved takes 40 in all, seldom more;
+            without a cap infeasible steps have taken ten thousand.
+    """
+
+    weight: float
+    softness: float
+    scaled: bool
+    guess: Any
+    steps: tuple[int, int]
+
+
+USUAL = Manner(1e2, 1e-7, False, proxqp.InitialGuess.EQUALITY_CONSTRAINED_INITIAL_GUESS, (40, 6))
+PATIENT = (
+    Manner(1e3, 1e-7, True, proxqp.InitialGuess.EQUALITY_CONSTRAINED_INITIAL_GUESS, (40, 6)),
+    Manner(1.0, 1e-3, True, proxqp.InitialGuess.NO_INITIAL_GUESS, (200, 100)),
+)
+"""Tried in turn where the usual one fails."""
 
 OPEN = 1e20
 """ProxQP's word for no bound."""
@@ -59,15 +80,19 @@ def solve(program: Program) -> Answer:
     Raises:
         InputError: an entry that is not finite, or a side that is no number; named by its row.
     """
-    return _attempt(program, proxqp.InitialGuess.EQUALITY_CONSTRAINED_INITIAL_GUESS, ITERATIONS)
+    return _attempt(program, USUAL)
 
 
 def solve_patiently(program: Program) -> Answer:
-    """The same from another start with more iterations: for a program that is known not to be infeasible."""
-    return _attempt(program, proxqp.InitialGuess.NO_INITIAL_GUESS, PATIENCE * ITERATIONS)
+    """The same in manners that bear more: for what is not known to be infeasible."""
+    for manner in PATIENT:
+        answer = _attempt(program, manner)
+        if answer.solved:
+            break
+    return answer
 
 
-def _attempt(program: Program, guess: Any, iterations: int) -> Answer:
+def _attempt(program: Program, manner: Manner) -> Answer:
     """Solve for the coordinates that no equation pins."""
     p = program
     good, free, rest, *parts = reduce(
@@ -79,18 +104,18 @@ def _attempt(program: Program, guess: Any, iterations: int) -> Answer:
         return _checked(p, free, rest, np.zeros(0), np.zeros(len(rest)), np.zeros(len(p.low)), 0)
     qp = proxqp.dense.QP(len(free), len(rest), len(p.low), True, _DENSE, _BACKEND)
     settings = qp.settings
-    settings.initial_guess = guess
-    settings.max_iter = iterations
-    settings.max_iter_in = ITERATIONS
+    settings.initial_guess = manner.guess
+    settings.max_iter, settings.max_iter_in = manner.steps
     settings.eps_abs = PRECISION
     settings.eps_rel = 0.0
-    settings.default_mu_eq = SOFTNESS
-    parts[0] *= WEIGHT
-    parts[1] *= WEIGHT
-    qp.init(*parts, compute_preconditioner=False)
+    settings.default_mu_eq = manner.softness
+    weight = manner.weight
+    parts[0] *= weight
+    parts[1] *= weight
+    qp.init(*parts, compute_preconditioner=manner.scaled)
     qp.solve()
     found = qp.results
-    return _checked(p, free, rest, found.x, found.y / WEIGHT, found.z / WEIGHT, int(found.info.iter))
+    return _checked(p, free, rest, found.x, found.y / weight, found.z / weight, int(found.info.iter))
 
 
 def _checked(

@@ -34,14 +34,14 @@ SPEEDS = Speeds()
 class Rig:
     """A controller, a clock, and a rover that does what it is told."""
 
-    def __init__(self, rover, thresholds=None, at=0.25, **options):
+    def __init__(self, rover, thresholds=None, at=0.25, terrain=FLAT, **options):
         self.now, self.answers = 0.0, False
         supervisor = Supervisor(lambda: self.now, lambda _: self.answers, 1.0)
         allowed = {mode: {} for mode in MODES} if thresholds is None else thresholds
         self.controller = Controller(
-            rover, FLAT, SIDES, motion_constraints(rover, SIDES), allowed, supervisor, **options
+            rover, terrain, SIDES, motion_constraints(rover, SIDES), allowed, supervisor, **options
         )
-        self.at = self.controller.inverse.at(rp.settle(rover, FLAT, posture={"clearance": at}))
+        self.at = self.controller.inverse.at(rp.settle(rover, terrain, posture={"clearance": at}))
         self.cycles = []
 
     def run(self, mode, most=100000, **given):
@@ -273,6 +273,15 @@ def test_an_action_that_makes_no_way(hit):
     assert order.state in (State.RETURNED, State.ROLLING_BACK)
     reasons = [event.reason for event in rig.controller.supervisor.trace if event.state is State.HALTED]
     assert reasons[0].startswith("raise or lower makes no way any more, ")
+
+
+def test_the_edge_of_the_map_holds_the_rover(hit):
+    rig = Rig(hit, terrain=rp.Terrain.from_function(lambda x, y: 0.0 * x, extent=(-2.0, 1.25, -2.0, 2.0)))
+    order = rig.run(rolling(SIDES, SPEEDS, 1.0), most=2000)
+    assert order.state is State.HELD
+    assert order.reason == "LF: is not over the map; the map spans x -2 to 1.25 m, y -2 to 2 m"
+    assert 0.1 < rig.at.q[0] < 0.5
+    assert not np.any(rig.cycles[-1].velocity)
 
 
 def test_names_of_clutches():

@@ -8,11 +8,13 @@ from hypothesis import strategies as st
 from places import GROUNDS, ground, resting, rover
 from scipy import sparse
 
-from rover_pin.errors import InputError
+import rover_pin as rp
+from rover_pin.errors import InputError, OffMapError
 from rover_pin.kinematics.advance import advance
 from rover_pin.kinematics.inverse import InverseKinematics, usual_limits
 from rover_pin.kinematics.limits import Clutch, ContactKept, Held, JointLimits, SpeedLimits, rolling_contacts
-from rover_pin.kinematics.rows import Rows
+from rover_pin.kinematics.rolling import contact_rows
+from rover_pin.kinematics.rows import Aim, Rows
 from rover_pin.kinematics.solution import Outcome
 from rover_pin.kinematics.tasks import (
     BaseTwist,
@@ -173,8 +175,6 @@ def test_the_same_instant_gives_the_same_answer():
 
 def test_units_do_not_matter():
     """A rover twice as large twice as fast has twice the speeds and the same rates of joints."""
-    import rover_pin as rp
-
     small = rp.load("rocker_bogie")
     inverse = InverseKinematics(small, ground("flat"))
     at = inverse.at(rp.settle(small, ground("flat")))
@@ -195,6 +195,15 @@ def test_refusals():
         (lambda: SpeedLimits({"L_act": 0.0}), r"speed of L_act: a speed limit is above 0 \(got 0.0\)"),
         (lambda: ContactKept(directions=("up",)), r"contact: is no direction of a contact \(got 'up'\)"),
         (lambda: FrameGoal("base_link", rotation=np.ones((3, 3))), "rotation: is no rotation matrix"),
+        (lambda: FrameGoal("base_link", rotation=np.diag([1.0, 1.0, -1.0])),
+         "frame base_link: rotation: is no rotation matrix"),
+        (lambda: FrameGoal("base_link", rotation=np.eye(3), lever=0.0), "lever: must be above 0"),
+        (lambda: Posture({"L_act": 0.0}, speed=-0.1), r"posture: speed: must be above 0 \(got -0.1\)"),
+        (lambda: Clearance(goal=0.3, speed=0.0), r"clearance: speed: must be above 0 \(got 0.0\)"),
+        (lambda: WheelLift("RF", height=0.1, speed=np.nan), "lift of RF: speed: must be a finite number"),
+        (lambda: BaseTwist(yaw=1.0, weight=-1.0), r"a weight is a finite number, at least 0 \(got -1.0\)"),
+        (lambda: ContactKept(bend=-1.0), r"contact: bend: a weight is a finite number, at least 0"),
+        (lambda: ContactKept(directions=()), "contact: keeps no direction; known: normal, roll, slip"),
         (lambda: CenterOfMass((None, None, None)), "centre of mass: needs x, y, z, one of them a number"),
         (lambda: WheelLift("RF"), "lift of RF: needs a rate or a height, one of them"),
         (lambda: InverseKinematics(rover("rigid4"), ground("flat"), damping=0.0), "damping: must be above 0"),
@@ -208,6 +217,47 @@ def test_refusals():
     ):  # fmt: skip
         with pytest.raises(InputError, match=message):
             make()
+
+
+def test_a_users_task_is_named():
+    class Mine:
+        name = "my task"
+
+        def aim(self, at, dt):
+            return Aim(np.full((1, len(at.q)), np.nan), np.zeros(1), np.ones(1))
+
+    inverse, at = kinematics()
+    with pytest.raises(InputError, match="my task: has an entry that is no finite number"):
+        inverse.solve(at, [BaseTwist(forward=0.0), Mine()])
+
+
+def test_tasks_of_one_name_are_told_apart():
+    inverse, at = kinematics()
+    found = inverse.solve(at, [Rates({"LF_st": 0.1}), Rates({"RF_st": 0.2}), BaseTwist(yaw=0.0)], ())
+    assert list(found.missed) == ["rates", "rates 2", "base twist"]
+    assert found.missed["rates 2"] < 1e-6
+
+
+def test_what_equations_that_bend_are_missed_by():
+    """Skid steering: what the slip rows are missed by is told like any other slack."""
+    inverse, at = kinematics("rigid4", "flat")
+    limits = (*usual_limits()[:2], *rolling_contacts(slip=1e-3), *usual_limits()[4:])
+    found = inverse.solve(at, [BaseTwist(yaw=0.3, forward=0.0)], limits)
+    assert found.solved, found.reason
+    slip = contact_rows(at, np.arange(4), ("slip",)) @ found.velocity
+    assert np.abs(slip).max() > 0.05
+    told = [found.slack[f"side slip of {name}"] for name in at.bodies.names]
+    assert told == pytest.approx(-slip, abs=1e-9)
+
+
+def test_the_edge_of_the_map():
+    small = rp.Terrain.from_grid(np.zeros((41, 41)), spacing=0.1)
+    inverse = InverseKinematics(rover("hit_mrii"), small)
+    at = inverse.at(rp.settle(rover("hit_mrii"), small, x=2.0, y=2.0))
+    assert inverse.solve(at, [BaseTwist(forward=0.1)]).solved
+    with pytest.raises(OffMapError) as caught:
+        inverse.solve(list(at.q + 1.2 * np.eye(len(at.q))[0]), [BaseTwist(forward=0.1)])
+    assert str(caught.value) == "LF: is not over the map; the map spans x 0 to 4 m, y 0 to 4 m"
 
 
 def test_nothing_asked_is_standing_still():

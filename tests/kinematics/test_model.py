@@ -10,7 +10,7 @@ from places import ground, resting, rover
 import rover_pin as rp
 from rover_pin.errors import InputError, MechanismError
 from rover_pin.kinematics.instant import Bodies
-from rover_pin.kinematics.model import complete, forward
+from rover_pin.kinematics.model import complete, forward, structure
 from rover_pin.kinematics.rolling import ground_rows, rim_rows
 from rover_pin.kinematics.wheelbase import wheelbase, wheelbase_row
 
@@ -76,6 +76,25 @@ def test_rates_that_do_not_agree_slide():
     found = forward(at, {"LF_dr": 0.1})  # one wheel against five that are braked
     assert found.sliding > 1e-3
     assert found.where.split(" of ")[0] in ("rolling", "side slip")
+
+
+def test_wheels_stay_on_the_ground_before_none_slides():
+    """Drives that disagree on rough ground: wheels slide, but none is pressed into the ground or lifted."""
+    at = resting("rocker_bogie", "rough:3,0.04,0.8")
+    drives = [wheel.drive for wheel in at.rover.wheels]
+    found = forward(at, dict.fromkeys(drives, 0.5) | {drives[0]: 0.9})
+    assert found.sliding > 1e-3
+    names, rows = structure(at)
+    rates = dict(zip(names, rows @ found.velocity, strict=True))
+    kept = [rate for name, rate in rates.items() if name.startswith(("contact of", "coupling"))]
+    assert len(kept) == 7
+    assert kept == pytest.approx(np.zeros(7), abs=1e-12)
+    for nudge in np.eye(len(at.q))[:6]:  # nothing slides less that keeps what is known and those
+        v = found.velocity + 1e-3 * nudge
+        other = complete(
+            at, {name: float(v[at.rover.column[name]]) for name in (*at.rover.actuated, "base_x")}
+        )
+        assert np.linalg.norm(rows[7:] @ other.velocity) >= np.linalg.norm(rows[7:] @ found.velocity) - 1e-12
 
 
 def test_what_is_left_open_is_named():

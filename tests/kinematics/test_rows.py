@@ -85,14 +85,16 @@ def test_the_wheelbase():
         assert wheelbase_row(at, "LF", "RB") == pytest.approx(found, abs=1e-8)
 
 
-def test_heights_over_the_ground_below():
-    at = resting("hit_mrii", "slope:8")
-    which = at.index(["RM"])
-    found = difference(lambda now: height(now, int(which[0])), at)
-    rows = height_row(at, which)
-    tilting = [at.rover.column[name] for name in ("base_pitch", "base_roll", "base_yaw", "RM_st")]
-    same = [c for c in range(len(at.q)) if c not in tilting]  # a turn of the axis moves the lowest point too
-    assert rows[:, same] == pytest.approx(found[:, same], abs=1e-6)
+@pytest.mark.parametrize("word", GROUNDS)
+def test_heights_over_the_ground_below(word):
+    """The wheel leans too: turned by its steering and tilted with the rover, its lowest point moves."""
+    at = resting("hit_mrii", word)
+    q = at.q.copy()
+    q[at.rover.column["RM_st"]], q[5] = 0.3, q[5] + 0.2
+    leaning = at.bodies.at(q)
+    which = leaning.index(["RM"])
+    found = difference(lambda now: height(now, int(which[0])), leaning)
+    assert height_row(leaning, which) == pytest.approx(found, abs=1e-6)
 
 
 def test_frames_and_turns():
