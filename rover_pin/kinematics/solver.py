@@ -29,8 +29,8 @@ class Manner:
     Attributes:
         weight: times the cost. Its precision is absolute: at 1 it leaves vague what damping alone decides, at
             1000 it fails where tasks ask for a thousand times what limits allow.
-        softness: of equations in the first step. With the solver's own default, 1e-3, wishes of unlike weights
-            take ten steps and more; with ten thousand times less most programs take one.
+        softness: of equations in the first step. With the solver's own default, 1e-3, wishes of unlike
+            weights take ten steps and more; with ten thousand times less most programs take one.
         scaled: whether the solver brings the rows to one scale first.
         guess: where it starts.
         steps: most outer iterations, and inner ones of each. What can be solved takes 40 in all, seldom more;
