@@ -12,6 +12,7 @@ from rover_pin.kinematics.conflict import Side, conflict
 from rover_pin.kinematics.instant import Bodies, Instant
 from rover_pin.kinematics.limits import (
     CouplingsKept,
+    Held,
     JointLimits,
     LoopsClosed,
     SpeedLimits,
@@ -21,6 +22,7 @@ from rover_pin.kinematics.program import Program, assemble
 from rover_pin.kinematics.rows import Aim, Box, Limit, Task, above
 from rover_pin.kinematics.solution import Outcome, Solution
 from rover_pin.kinematics.solver import solve, solve_patiently
+from rover_pin.kinematics.steering import steering_joints
 from rover_pin.numerics import Array
 
 if TYPE_CHECKING:
@@ -95,7 +97,9 @@ class InverseKinematics:
         Args:
             where: a stance, an instant, or q (nv,).
             tasks: what is wanted.
-            limits: what is obeyed; silent: `usual_limits(hanging(at))`.
+            limits: what is obeyed; silent: `usual_limits(hanging(at))`, and steering holds that no task asks
+                for by name. The rows of a step see how fast a wheel is steered, not that it ends up askew:
+                steering that is free to serve them wanders.
             dt: s.
 
         Raises:
@@ -105,8 +109,8 @@ class InverseKinematics:
         above("dt", dt, "s")
         at = self.at(where)
         self._refuse_off_map(at)
-        obeyed = usual_limits(hanging(at)) if limits is None else limits
         aims = [task.aim(at, dt) for task in tasks]
+        obeyed = _silent_limits(at, aims) if limits is None else limits
         boxes = [cast("Box", limit) for limit in obeyed if hasattr(limit, "box")]
         found = [cast("Limit", limit).rows(at, dt) for limit in obeyed if hasattr(limit, "rows")]
         blocks = [block for block in found if block.names]
@@ -159,6 +163,19 @@ class InverseKinematics:
                 if high[i] == program.ceiling[i] and np.isfinite(high[i]):
                     names[i, True] = each.bound_name(dof, True)
         return names
+
+
+def _silent_limits(at: Instant, aims: Sequence[Aim]) -> tuple[Limit | Box, ...]:
+    """The usual ones, and steering held that no row of a task picks."""
+    limits = usual_limits(hanging(at))
+    picking = [aim.matrix[np.count_nonzero(aim.matrix, axis=1) == 1] for aim in aims]
+    column = at.rover.column
+    idle = tuple(
+        joint
+        for joint in steering_joints(at).values()
+        if not any(np.any(rows[:, column[joint]]) for rows in picking)
+    )
+    return (*limits, Held(idle, "steering")) if idle else limits
 
 
 def _by_name(tasks: Sequence[Task], aims: Sequence[Aim]) -> dict[str, Aim]:

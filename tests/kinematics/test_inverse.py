@@ -10,12 +10,13 @@ from scipy import sparse
 
 import rover_pin as rp
 from rover_pin.errors import InputError, OffMapError
-from rover_pin.kinematics.advance import advance
+from rover_pin.kinematics.advance import Sliding, advance
 from rover_pin.kinematics.inverse import InverseKinematics, usual_limits
 from rover_pin.kinematics.limits import Clutch, ContactKept, Held, JointLimits, SpeedLimits, rolling_contacts
 from rover_pin.kinematics.rolling import contact_rows
 from rover_pin.kinematics.rows import Aim, Rows
 from rover_pin.kinematics.solution import Outcome
+from rover_pin.kinematics.steering import steering_joints
 from rover_pin.kinematics.tasks import (
     BaseTwist,
     CenterOfMass,
@@ -217,6 +218,21 @@ def test_refusals():
     ):  # fmt: skip
         with pytest.raises(InputError, match=message):
             make()
+
+
+def test_steering_does_not_wander():
+    """Free steering would serve a step's slip a little and leave wheels askew: it holds unless asked."""
+    inverse, at = kinematics("rocker_bogie", "rough:3,0.04,0.8")
+    joints = [at.rover.column[joint] for joint in steering_joints(at).values()]
+    before, sliding = at.q[joints], Sliding(at)
+    for _ in range(200):
+        at = advance(at, inverse.solve(at, [BaseTwist(forward=0.05)], dt=0.02).velocity, 0.02)
+        slid = sliding.step(at)
+    assert np.array_equal(at.q[joints], before)
+    assert np.max(slid) < 1e-3
+    turned = inverse.solve(at, [BaseTwist(forward=0.05), Rates({"steer_fl": 0.1}, weight=100.0)])
+    assert turned.rates["steer_fl"] == pytest.approx(0.1, abs=1e-3)
+    assert turned.rates["steer_fr"] == 0.0
 
 
 def test_a_users_task_is_named():
