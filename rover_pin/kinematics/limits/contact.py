@@ -19,6 +19,7 @@ class ContactKept:
     """Rows of what stands: along the normal, along the rolling direction, sideways.
 
     A wheel without a turning joint of its own, which a track carries or a simple URDF fixes, rolls freely.
+    Feet have no rolling direction: what holds them along holds them across, whatever side slip may do.
 
     Attributes:
         lifted: wheels and feet that do not stand.
@@ -71,15 +72,26 @@ class ContactKept:
             shapes = at.bodies.names
             stands = [i for i in range(len(shapes)) if i not in away]
             rolls = [i for i in stands if at.bodies.can_hold[i]]
+            feet = [i for i in stands if i >= len(at.rover.wheels)]
             blocks, normals = [], None
             names: list[str] = []
             for word in self.directions:
-                which = np.array(rolls if word == "roll" else stands, dtype=np.int64)
-                normals = (len(names), which) if word == "normal" else normals
-                blocks.append((DIRECTIONS.index(word), which))
-                names += [f"{_WORDS[word]} of {shapes[i]}" for i in which]
+                for row, chosen in _rows_of(word, stands, rolls, feet):
+                    which = np.array(chosen, dtype=np.int64)
+                    normals = (len(names), which) if row == "normal" else normals
+                    blocks.append((DIRECTIONS.index(row), which))
+                    names += [f"{_WORDS[row]} of {shapes[i]}" for i in chosen]
             self._kept[:] = [(at.bodies, Standing(blocks, tuple(names), normals))]
         return self._kept[0][1]
+
+
+def _rows_of(word: str, stands: list[int], rolls: list[int], feet: list[int]) -> list[tuple[str, list[int]]]:
+    """Directions and shapes of the rows that a word stands for."""
+    if word == "roll":
+        return [("roll", rolls), ("slip", feet)] if feet else [("roll", rolls)]
+    if word == "slip":
+        return [("slip", [i for i in stands if i not in feet])]
+    return [(word, stands)]
 
 
 class Standing(NamedTuple):
