@@ -1,7 +1,7 @@
 """ProxQP on the program of a step: capped, and believed only after its conditions were worked out again.
 
 Every program is set up anew: warm starts have sent the solver on long ways where matrices change, and the
-same instant must give the same answer whatever was solved before.
+same instant must give the same answer, but for rounding, whatever was solved before.
 """
 
 from __future__ import annotations

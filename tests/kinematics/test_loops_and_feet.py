@@ -94,9 +94,9 @@ def test_two_hundred_steps(resting, name, forward, yaw, up, word):
     tasks = [BaseTwist(forward=forward, yaw=yaw, up=up if name == "anymal" else None)]
     sliding = Sliding(at)
     for _ in range(200):
-        found = inverse.solve(at, tasks)
+        found = inverse.solve(at, tasks, dt=0.005)
         assert found.solved, found.reason
-        at = advance(at, found.velocity, 0.01)
+        at = advance(at, found.velocity, 0.005)
         slid = sliding.step(at)
         inside = np.isfinite(at.rover.lower) & np.isfinite(at.rover.upper)
         assert np.all(at.q[inside] >= at.rover.lower[inside] - 1e-9)
