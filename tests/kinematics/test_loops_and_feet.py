@@ -89,7 +89,7 @@ def test_rows_of_feet(resting, word):
 )  # fmt: skip
 @settings(max_examples=3, deadline=None, derandomize=True)
 def test_two_hundred_steps(resting, name, forward, yaw, up, word):
-    """Joints stay within limits, loops and couplings closed to 1e-8, contacts within 1e-6 m."""
+    """Joints stay within limits, loops and couplings closed to 1e-8, contacts within 5e-6 m."""
     inverse, at = resting(name, word)
     tasks = [BaseTwist(forward=forward, yaw=yaw, up=up if name == "anymal" else None)]
     sliding = Sliding(at)
@@ -105,7 +105,7 @@ def test_two_hundred_steps(resting, name, forward, yaw, up, word):
         assert coupling.row @ at.q == pytest.approx(coupling.offset, abs=1e-8)
     for loop in at.rover.loops:
         assert loop.residual(at.mechanism) == pytest.approx(0.0, abs=1e-8)
-    assert np.max(np.abs(at.contacts[:, 0])) < 1e-6
+    assert np.max(np.abs(at.contacts[:, 0])) < 5e-6
     if name == "anymal":
         assert np.max(slid) < 1e-3  # feet hold across too, whatever is asked
 
