@@ -22,7 +22,7 @@ class Margin:
         better: `high` or `low`.
         note: what a reader must know besides; empty where nothing.
         details: further numbers, the unit in the name.
-        outline: corners (x, y) of the measure's region in the world [m], counterclockwise; none where it has none.
+        outline: corners (x, y) of the measure's region, world [m], counterclockwise; empty where it has none.
     """
 
     measure: str

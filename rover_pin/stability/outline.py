@@ -30,8 +30,8 @@ MOST = 400
 class Outline:
     """Places of the set's edge, the furthest along ever more directions (Bretl and Lall 2008).
 
-    Their hull lies in the set, and the set in the polygon of their tangents. The signed distance of the origin
-    from the edge is min over directions a of (reach along a), whether it is inside or not.
+    Their hull lies in the set, and the set in the polygon of their tangents. The signed distance of the
+    origin from the edge is min over directions a of (reach along a), whether it is inside or not.
 
     Attributes:
         reach: gives (reach [m], (2,) place) along a unit vector; raises to end the search.
@@ -91,7 +91,7 @@ class Outline:
         return values, where
 
     def _open_distance(self) -> float | None:
-        """The direction to ask next for the least known of the eighths' distances; None where all are known."""
+        """The direction to ask next for the eighths' distances; None where all are known."""
         inner, where = self.least()
         asked, told = np.array(self.angles), np.array(self.reaches)
         gaps = np.empty(8)

@@ -24,7 +24,7 @@ class MovableRows(Rows, Protocol):
 
     @property
     def lean(self) -> Array:
-        """(m, 2) what gravity gains per metre by which the centre of mass moves along x and y [N, N m per m]."""
+        """(m, 2) what gravity gains per metre that the mass moves along x and y [N or N m, per m]."""
 
     @property
     def torque(self) -> Array:
@@ -62,7 +62,7 @@ class Reached:
         outcome: `solved`; `infeasible`: nowhere is there equilibrium; `unbounded`; `failed`: no proof.
         value: m, from the centre of mass as it is, along the direction.
         place: (2,) m, from the centre of mass as it is.
-        limits: what forbids going on: contacts that carry nothing or slip, motors at their effort; a clause each.
+        limits: what forbids going on, a clause each: contacts that carry nothing or slip, motors.
     """
 
     outcome: Literal["solved", "infeasible", "unbounded", "failed"]
@@ -74,9 +74,9 @@ class Reached:
 class ComReach:
     """The furthest places of the centre of mass that equilibrium allows, one cone program a direction.
 
-    The mass of the root link is thought to be moved in the horizontal plane, weight and posture as they are: the
-    rows of passive joints below it do not change, those of the base gain `lean`. Friction is the exact cone.
-    Normal forces may add up to `SQUEEZE` weights: bracing without bound is not counted.
+    The mass of the root link is thought to be moved in the horizontal plane, weight and posture as they are:
+    the rows of passive joints below it do not change, those of the base gain `lean`. Friction is the exact
+    cone. Normal forces may add up to `SQUEEZE` weights: bracing without bound is not counted.
 
     Args:
         problem: contacts, friction, and equilibrium with `lean` and `torque`.
@@ -108,6 +108,8 @@ class ComReach:
             rows.gravity / weight,
             np.r_[may_carry(problem.free), np.ones(pushes.shape[1] + scaled.shape[1] + 2, dtype=bool)],
         )
+        if not basis.shape[1]:  # one solution at most; a solver wants something to choose
+            basis = np.zeros((len(particular), 1))
         self._particular, self._basis = particular, basis
         self._forces, self._move = slice(0, 3 * k), slice(len(particular) - 2, len(particular))
         self._torques = slice(len(particular) - 2 - scaled.shape[1], len(particular) - 2)

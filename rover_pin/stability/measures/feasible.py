@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 def evaluate(standing: Standing) -> Margin:
     """Signed distance [m] of the centre of mass from the edge of the feasible region.
 
-    As `region`, and every driven joint keeps |torque| <= the URDF's `effort`: a driven joint gets a row of its own
-    that its motor alone balances (with what couplings and loops take off it); a wheel's drive holds its
-    rolling forces times their lever. Joints without an effort, brakes and locks hold any torque.
+    As `region`, and every driven joint keeps |torque| <= the URDF's `effort`: a driven joint gets a row of
+    its own that its motor alone balances (with what couplings and loops take off it); a wheel's drive holds
+    its rolling forces times their lever. Joints without an effort, brakes and locks hold any torque.
 
     Edges, note, details and outline are those of `region`; the note names motors that give all they can.
 

@@ -19,8 +19,8 @@ def evaluate(standing: Standing) -> Margin:
     """The largest s [N] with |tangential_i| <= friction_i (normal_i - s) at every contact, in equilibrium.
 
     It is the largest b0 with G b = D c + d, b >= b0, with exact cones in place of a pyramid: b >= b0 over n
-    generators e_n + friction (e_r cos + e_l sin) leaves f - n b0 e_n in the pyramid, so s is the limit of n b0
-    (for generators of unit length n b0 / sqrt(1 + friction^2)). Any error of the forces smaller than
+    generators e_n + friction (e_r cos + e_l sin) leaves f - n b0 e_n in the pyramid, so s is the limit of
+    n b0 (for generators of unit length n b0 / sqrt(1 + friction^2)). Any error of the forces smaller than
     friction_i s / sqrt(1 + friction_i^2) leaves every one in its cone. Negative where friction does not
     hold the rover: then s says by how much. The rows of passive joints, loops and couplings count.
 
