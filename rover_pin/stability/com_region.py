@@ -14,6 +14,7 @@ from rover_pin.stability.outline import EIGHTHS, Outline
 from rover_pin.statics.com_reach import ComReach, Reached
 
 if TYPE_CHECKING:
+    from rover_pin.rover import Rover
     from rover_pin.stability.measure import Measure
     from rover_pin.statics.stance import Stance
 
@@ -21,6 +22,12 @@ _WHY = {
     "unbounded": "in some direction nothing limits where the centre of mass may be",
     "failed": "the solver found no answer it could prove",
 }
+
+
+def held_level(rover: Rover) -> str:
+    """Why a rover's centre of mass has no region; empty where nothing but the ground holds its attitude."""
+    held = [loop.name for loop in rover.loops if loop.type == "level"]
+    return f"{held[0]} holds {rover.name} level wherever its centre of mass is" if held else ""
 
 
 class _NoAnswerError(Exception):
@@ -58,7 +65,7 @@ def region_margin(measure: Measure, stance: Stance, reach: ComReach, nowhere: st
     nearest = min(asked, key=lambda each: abs(math.remainder(each[0] - where[worst], math.tau)))[1]
     margin = measure.margin(
         dict(zip(EIGHTHS, values.tolist(), strict=True)),
-        note="; ".join(nearest.limits),
+        note="; ".join(reach.limits(nearest)),
         area_m2=outline.area,
         area_at_most_m2=outline.area_at_most,
         toward_rad=math.remainder(float(where[worst]) - float(stance.rpy[2]), math.tau),

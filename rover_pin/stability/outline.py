@@ -22,6 +22,8 @@ AREA = 1e-3
 NARROW = 1e-6
 """A set narrower than this share of its length is a line."""
 
+_EIGHT = np.arange(8)
+
 MOST = 400
 """Directions after which the search counts as failed."""
 
@@ -50,13 +52,13 @@ class Outline:
         """Ask until every eighth's distance and the area are known; False where `MOST` is not enough."""
         for eighth in range(8):
             self._ask(self.heading + (eighth - 0.5) * math.pi / 4)
-        while len(self.angles) < MOST:
-            angle = self._open_distance()
-            angle = self._open_area() if angle is None else angle
-            if angle is None:
-                return True
-            self._ask(angle)
-        return False
+        for unknown in (self._open_distances, self._open_area):
+            while len(angles := unknown()):
+                if len(self.angles) + len(angles) > MOST:
+                    return False
+                for angle in angles:
+                    self._ask(float(angle))
+        return True
 
     def _ask(self, angle: float) -> None:
         angle = (angle - self._first) % math.tau + self._first
@@ -83,35 +85,30 @@ class Outline:
         angles = np.concatenate([ends, inside % math.tau + self._first])
         reach = np.max(corners @ np.array([np.cos(angles), np.sin(angles)]), axis=0)
         owner = np.clip(((angles - self._first) // (math.pi / 4)).astype(int), 0, 7)
-        values, where = np.empty(8), np.empty(8)
-        for eighth in range(8):
-            own = np.flatnonzero((owner == eighth) | np.isin(np.arange(len(angles)), (eighth, eighth + 1)))
-            best = own[np.argmin(reach[own])]
-            values[eighth], where[eighth] = reach[best], angles[best]
-        return values, where
+        own = owner == _EIGHT[:, None]
+        own[_EIGHT, _EIGHT] = own[_EIGHT, _EIGHT + 1] = True
+        best = np.argmin(np.where(own, reach, np.inf), axis=1)
+        return reach[best], angles[best]
 
-    def _open_distance(self) -> float | None:
-        """The direction to ask next for the eighths' distances; None where all are known."""
+    def _open_distances(self) -> Array:
+        """The directions to ask next for the eighths' distances; none where all are known."""
         inner, where = self.least()
-        asked, told = np.array(self.angles), np.array(self.reaches)
-        gaps = np.empty(8)
-        for eighth in range(8):
-            start = self._first + eighth * math.pi / 4
-            own = (asked >= start - 1e-12) & (asked <= start + math.pi / 4 + 1e-12)
-            if eighth == 7:
-                own[0] = True
-            gaps[eighth] = told[own].min() - inner[eighth]
-        worst = int(np.argmax(gaps))
-        return float(where[worst]) if gaps[worst] > CLOSE * self.size else None
+        from_first = np.array(self.angles) - self._first
+        start = _EIGHT[:, None] * math.pi / 4
+        own = (from_first >= start - 1e-12) & (from_first <= start + math.pi / 4 + 1e-12)
+        own[7, 0] = True
+        told = np.min(np.where(own, np.array(self.reaches), np.inf), axis=1)
+        return where[told - inner > CLOSE * self.size]
 
-    def _open_area(self) -> float | None:
-        """The direction that may add most to the area; None where little is missing."""
+    def _open_area(self) -> Array:
+        """The directions that may add most to the area; none where little is missing."""
         missing = self._missing()
         if missing.sum() <= AREA * self.area + (CLOSE * self.size) ** 2:
-            return None
-        at = int(np.argmax(missing))
-        step = self.places[(at + 1) % len(self.places)] - self.places[at]
-        return math.atan2(-step[0], step[1])
+            return np.zeros(0)
+        side = np.roll(self.places, -1, axis=0) - np.array(self.places)
+        chosen = missing >= 0.5 * missing.max()
+        across: Array = np.arctan2(-side[chosen, 0], side[chosen, 1])
+        return across
 
     def _missing(self) -> Array:
         """(n,) m2 between each side of the inner outline and the tangents at its ends."""

@@ -62,13 +62,13 @@ class Reached:
         outcome: `solved`; `infeasible`: nowhere is there equilibrium; `unbounded`; `failed`: no proof.
         value: m, from the centre of mass as it is, along the direction.
         place: (2,) m, from the centre of mass as it is.
-        limits: what forbids going on, a clause each: contacts that carry nothing or slip, motors.
+        forces: what attains it, in the program's own coordinates; `ComReach.limits` reads them.
     """
 
     outcome: Literal["solved", "infeasible", "unbounded", "failed"]
     value: float
     place: Array
-    limits: Sequence[str] = ()
+    forces: Array
 
 
 class ComReach:
@@ -167,17 +167,19 @@ class ComReach:
         """
         nowhere = np.full(2, np.nan)
         if self.unbalanced > BALANCE_TOLERANCE:
-            return Reached("infeasible", np.nan, nowhere)
+            return Reached("infeasible", np.nan, nowhere, nowhere)
         self._program.set_cost(-(direction @ self._basis[self._move]))
         answer = self._program.solve()
         if answer.outcome != "solved":
-            return Reached(answer.outcome, np.nan, nowhere)
+            return Reached(answer.outcome, np.nan, nowhere, nowhere)
         found = self._particular + self._basis @ answer.x
         place = found[self._move] * self.unit
-        return Reached("solved", float(direction @ place), place, self._limits(found, answer.x))
+        return Reached("solved", float(direction @ place), place, answer.x)
 
-    def _limits(self, found: Array, x: Array) -> list[str]:
-        """What stands at its limit."""
+    def limits(self, reached: Reached) -> list[str]:
+        """What forbids going on, a clause each: contacts that carry nothing or slip, motors."""
+        x = reached.forces
+        found = self._particular + self._basis @ x
         local = found[self._forces].reshape(-1, 3)
         normal, tangential = local[:, 0], np.hypot(local[:, 1], local[:, 2])
         idle = normal <= CLOSE

@@ -33,9 +33,10 @@ def test_on_a_crest_the_drives_limit_how_far_forward(torque, beta):
     motors = Motors((), np.zeros(0), [f"drive_{w}" for w in FOUR], levers, np.full(4, torque))
     expected = 4.0 * torque / 0.1 / (500.0 * math.sin(beta))
     for sign in (1.0, -1.0):
-        found = ComReach(crest(beta), motors).toward(np.array([sign, 0.0]))
+        reach_of = ComReach(crest(beta), motors)
+        found = reach_of.toward(np.array([sign, 0.0]))
         assert found.value == pytest.approx(expected, abs=1e-7)
-        assert "drive_fl, drive_fr, drive_rl, drive_rr give all they can" in found.limits
+        assert "drive_fl, drive_fr, drive_rl, drive_rr give all they can" in reach_of.limits(found)
     spent = ComReach(crest(beta), dataclasses.replace(motors, drive_effort=np.zeros(4)))
     assert spent.toward(np.array([1.0, 0.0])).value == pytest.approx(0.0, abs=1e-7)
 

@@ -152,6 +152,7 @@ def stance_of(
         bearing=bearing,
         belly=belly,
         actuated=(),
+        loops=(),
         effort=np.zeros(0),
         column={},
     )

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rover_pin.stability.com_region import region_margin
+from rover_pin.stability.com_region import held_level, region_margin
 from rover_pin.stability.margin import Margin
 from rover_pin.stability.measure import Measure, Standing
 from rover_pin.statics.balance import balance
@@ -27,7 +27,7 @@ def evaluate(standing: Standing) -> Margin:
 
     Edges, note, details and outline are those of `region`; the note names motors that give all they can.
 
-    Cost: 12 ms a stance with six wheels.
+    Cost: 25 ms a stance with six wheels.
     """
     stance = standing.stance
     if not stance.contacts:
@@ -67,8 +67,10 @@ def limited_motors(stance: Stance) -> Motors:
 
 def missing(rover: Rover) -> str:
     """What the rover lacks, or nothing."""
+    if level := held_level(rover):
+        return level
     limited = any(np.isfinite(rover.effort[rover.column[name]]) for name in rover.actuated)
     return "" if limited else f"no driven joint of {rover.name} has an effort in the URDF"
 
 
-MEASURE = Measure("feasible", "m", "high", 12.0, evaluate, missing)
+MEASURE = Measure("feasible", "m", "high", 25.0, evaluate, missing)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rover_pin.stability.com_region import region_margin
+from rover_pin.stability.com_region import held_level, region_margin
 from rover_pin.stability.margin import Margin
 from rover_pin.stability.measure import Measure, Standing
 from rover_pin.statics.com_reach import ComReach
@@ -25,7 +25,7 @@ def evaluate(standing: Standing) -> Margin:
     corners, (x, y) in the world. Distances are within 1e-7 of the contacts' extent, from below. Closed where
     friction holds the rover nowhere, and where the region is a line or a point.
 
-    Cost: 10 ms a stance with six wheels (about 30 cone programs).
+    Cost: 20 ms a stance with six wheels (about 45 cone programs).
     """
     if not standing.stance.contacts:
         return MEASURE.closed("0 contacts span no region")
@@ -33,4 +33,4 @@ def evaluate(standing: Standing) -> Margin:
     return region_margin(MEASURE, standing.stance, reach, "friction holds no place of the centre of mass")
 
 
-MEASURE = Measure("region", "m", "high", 10.0, evaluate)
+MEASURE = Measure("region", "m", "high", 20.0, evaluate, held_level)
