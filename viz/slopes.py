@@ -22,10 +22,10 @@ TIP, SLIP, STANDS = "#b5400f", "#0b57a4", "#dbe9d8"
 
 
 def plot_slopes(dataset: xr.Dataset) -> Figure:
-    """Polar plot of `rover_pin.analysis.slopes`: slope outwards [deg], heading round, straight uphill at the top.
+    """Polar plot of `rover_pin.analysis.slopes`: slope outwards [deg], heading round, uphill at the top.
 
-    Green is where the rover stands; it tips at the orange line and slips at the blue one. Where it tips before
-    it slips there is no blue line.
+    Green is where the rover stands; it tips at the orange line and slips at the blue one. Where it tips
+    before it slips there is no blue line.
 
     Returns:
         A matplotlib Figure; `figure.savefig("slopes.png")` writes it.
@@ -67,8 +67,9 @@ def save_slopes_html(dataset: xr.Dataset, path: str | Path) -> Path:
     """
     robot = str(dataset.attrs["robot"])
     note = (
-        "The heading is counted in the slope from straight uphill, counterclockwise from above, wheels braked."
-        " It tips at the least slope without a stance, and slips at the least slope that friction does not hold."
+        "The heading is counted in the slope from straight uphill, counterclockwise from above, wheels"
+        " braked. It tips at the least slope without a stance, and slips at the least slope that friction"
+        " does not hold."
     )
     cards = [
         card(
@@ -78,9 +79,13 @@ def save_slopes_html(dataset: xr.Dataset, path: str | Path) -> Path:
         ),
         card("Numbers", table(HEAD, rows(dataset))),
     ]
-    subtitle = f"friction {_friction(dataset)}, gravity {dataset.attrs['gravity']:g} m/s2, posture {dataset.attrs['posture']}"
+    asked = dataset.attrs
+    subtitle = f"friction {_friction(dataset)}, gravity {asked['gravity']:g} m/s2, posture {asked['posture']}"
     return write_whole(path, sheet(f"{robot} on slopes", subtitle, cards).encode("utf-8"))
 
+
+WIDE = 1e-3
+"""deg; a bracket wider than what is printed is told."""
 
 HEAD = ("heading deg", "tips deg", "by", "how", "slips deg", "at")
 
@@ -89,22 +94,21 @@ def rows(dataset: xr.Dataset) -> list[list[str]]:
     """The numbers for people, a heading each, in the order of `HEAD`."""
     told = []
     for k, heading in enumerate(np.degrees(dataset["heading_rad"].values)):
-        tip, slip = (math.degrees(float(dataset[f"{name}_rad"][k])) for name in ("tip", "slip"))
-        word = {
-            name: str(dataset[name].values[k]) or "-"
-            for name in ("tip_limiting", "tip_status", "slip_limiting")
-        }
+        words = [
+            str(dataset[name].values[k]) or "-" for name in ("tip_limiting", "tip_status", "slip_limiting")
+        ]
         told.append(
-            [
-                f"{heading:g}",
-                "-" if math.isnan(tip) else f"{tip:.3f}",
-                word["tip_limiting"],
-                word["tip_status"],
-                "-" if math.isnan(slip) else f"{slip:.3f}",
-                word["slip_limiting"],
-            ]
+            [f"{heading:g}", _slope(dataset, "tip", k), *words[:2], _slope(dataset, "slip", k), words[2]]
         )
     return told
+
+
+def _slope(dataset: xr.Dataset, name: str, k: int) -> str:
+    """A slope in degrees, with half its bracket where that is wider than it should be."""
+    value, width = (math.degrees(float(dataset[f"{name}{part}_rad"][k])) for part in ("", "_open"))
+    if math.isnan(value):
+        return "-"
+    return f"{value:.3f}" if width <= WIDE else f"{value:.3f} +- {0.5 * width:.1g}"
 
 
 def _friction(dataset: xr.Dataset) -> str:

@@ -23,35 +23,29 @@ def as_dataset(
     rover: Rover, found: Sequence[Limits], friction: float | None, how: Mapping[str, Any]
 ) -> xr.Dataset:
     """The Dataset from the limits of headings evenly over the circle."""
-    tip, slip = (np.array([getattr(each, name) for each in found]) for name in ("tip", "slip"))
     commit, state = git_state(Path(__file__).resolve().parent)
 
-    def words(name: str) -> list[str]:
-        return [getattr(each, name) for each in found]
+    def told(name: str, text: str, unit: str = "") -> tuple[str, Any, dict[str, str]]:
+        values: Any = [getattr(each, name) for each in found]
+        return HEADING, values, {**({"units": unit} if unit else {}), "long_name": text}
 
+    tip, slip = (np.array([getattr(each, name) for each in found]) for name in ("tip", "slip"))
     return xr.Dataset(
         {
-            "tip_rad": (HEADING, tip, {"units": "rad", "long_name": "least slope without a stance"}),
-            "slip_rad": (
-                HEADING,
-                slip,
-                {
-                    "units": "rad",
-                    "long_name": "least slope that friction does not hold; NaN where it tips first",
-                },
+            "tip_rad": told("tip", "least slope without a stance", "rad"),
+            "slip_rad": told(
+                "slip", "least slope that friction does not hold; NaN where it tips first", "rad"
             ),
             "stands_to_rad": (
                 HEADING,
                 np.fmin(tip, slip),
                 {"units": "rad", "long_name": "the lesser of both"},
             ),
-            "tip_limiting": (
-                HEADING,
-                words("tip_limiting"),
-                {"long_name": "wheel, joint or link that ends it"},
-            ),
-            "tip_status": (HEADING, words("tip_status"), {"long_name": "how the stance ends"}),
-            "slip_limiting": (HEADING, words("slip_limiting"), {"long_name": "contact that slips first"}),
+            "tip_open_rad": told("tip_open", "width of the bracket about the slope at tip", "rad"),
+            "slip_open_rad": told("slip_open", "width of the bracket about the slope at slip", "rad"),
+            "tip_limiting": told("tip_limiting", "wheel, joint or link that ends it"),
+            "tip_status": told("tip_status", "how the stance ends"),
+            "slip_limiting": told("slip_limiting", "contact that slips first"),
         },
         coords={
             HEADING: (

@@ -30,7 +30,7 @@ def slopes(
     sidecar: Sidecar = None,
     package: Packages = None,
     skip_missing_includes: SkipIncludes = False,
-    headings: Annotated[int, typer.Option(help="How many, evenly over the circle.", metavar="N")] = 36,
+    headings: Annotated[int, typer.Option(help="How many, evenly over the circle.", metavar="N")] = 24,
     friction: Annotated[str | None, typer.Option(help="Friction under every wheel.", metavar="MU")] = None,
     posture: Annotated[str | None, typer.Option(help="Posture.", metavar="NAME|clearance=M")] = None,
     joint: Annotated[
@@ -83,16 +83,20 @@ def slopes_object(data: xr.Dataset) -> dict[str, Any]:
     each = [
         {
             "heading_rad": float(heading),
-            **{name: data[name].values[k].item() if name.endswith("_rad") else str(data[name].values[k]) or None
-               for name in names},
+            **{name: _value(data[name].values[k]) for name in names},
         }
         for k, heading in enumerate(data["heading_rad"].values)
-    ]  # fmt: skip
+    ]
     return {
         **{name: data.attrs[name] for name in ("robot", "friction", "gravity", "posture")},
         "worst": _worst(each),
         "headings": each,
     }
+
+
+def _value(told: Any) -> float | str | None:
+    """A number, or a word where there is one."""
+    return str(told) or None if isinstance(told, str) else float(told)
 
 
 def _worst(each: list[dict[str, Any]]) -> dict[str, Any] | None:
