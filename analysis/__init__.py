@@ -3,6 +3,7 @@
 from rover_pin.analysis.mobility import mobility
 from rover_pin.analysis.search import search
 from rover_pin.analysis.sensitivity import sensitivity
+from rover_pin.analysis.slopes import slopes
 from rover_pin.analysis.study import Study
 
-__all__ = ["Study", "mobility", "search", "sensitivity"]
+__all__ = ["Study", "mobility", "search", "sensitivity", "slopes"]

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from rover_pin.viz.serve import serve as serve
     from rover_pin.viz.show import save_html as save_html
     from rover_pin.viz.show import show as show
+    from rover_pin.viz.slopes import plot_slopes as plot_slopes
+    from rover_pin.viz.slopes import save_slopes_html as save_slopes_html
 
 _HOME = {
     "draw": "scene",
@@ -33,12 +35,14 @@ _HOME = {
     "plot_map": "plots",
     "plot_mobility": "mobility",
     "plot_run": "motion_plots",
+    "plot_slopes": "slopes",
     "save_html": "show",
     "save_motion_html": "motion",
     "save_motion_png": "motion",
     "save_png": "browser",
     "save_search_page": "page.search",
     "save_sensitivity_page": "page.sensitivity",
+    "save_slopes_html": "slopes",
     "save_study_page": "page.study",
     "serve": "serve",
     "show": "show",

@@ -11,6 +11,7 @@ from rover_pin.cli.reproduce import reproduce
 from rover_pin.cli.robots import robots
 from rover_pin.cli.search import search
 from rover_pin.cli.settle import settle
+from rover_pin.cli.slopes import slopes
 from rover_pin.cli.study import study
 from rover_pin.cli.view import view
 
@@ -21,5 +22,5 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
-for command in (robots, info, settle, study, search, view, mobility, reproduce, bench):
+for command in (robots, info, settle, study, search, view, mobility, slopes, reproduce, bench):
     app.command()(command)

@@ -128,3 +128,27 @@ def load_rover(
         skip_missing_includes=skip_missing_includes,
         **values,
     )
+
+
+def loaded(rover: Rover, words: Sequence[str] | None) -> Rover:
+    """The rover with the payloads that `--payload` words say.
+
+    Raises:
+        InputError: a word that is no payload.
+    """
+    loads = [payload(word) for word in words or ()]
+    return rover.with_payload(loads) if loads else rover
+
+
+def coefficient(word: str | None) -> float | None:
+    """What `--friction` says, or None.
+
+    Raises:
+        InputError: no number above 0.
+    """
+    if word is None:
+        return None
+    value = number(word, "--friction")
+    if value <= 0:
+        raise InputError("must be more than zero", element="--friction", value=word)
+    return value

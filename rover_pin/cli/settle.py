@@ -14,15 +14,15 @@ from rover_pin.cli.options import (
     Robot,
     Sidecar,
     SkipIncludes,
+    coefficient,
     load_rover,
+    loaded,
     number,
     numbers,
     place,
 )
-from rover_pin.cli.options import payload as parse_payload
 
 if TYPE_CHECKING:
-    from rover_pin.rover import Rover
     from rover_pin.statics.stance import Stance
 
 
@@ -69,9 +69,9 @@ def settle(
 
         find_browser()
     x, y, yaw = place(at)
-    mu = _friction(friction)
+    mu = coefficient(friction)
     ground = Terrain.parse(terrain, spacing=spacing, interpolation=interpolation)
-    rover = _loaded(load_rover(robot, sidecar, package, skip_missing_includes, param), payload)
+    rover = loaded(load_rover(robot, sidecar, package, skip_missing_includes, param), payload)
     announce_compilation()
     stance = stand(
         rover,
@@ -95,22 +95,6 @@ def settle(
         if path is not None:
             aside(f"wrote {path}")
     return 0 if stance.settled else 1
-
-
-def _loaded(rover: Rover, words: list[str] | None) -> Rover:
-    loads = [parse_payload(word) for word in words or ()]
-    return rover.with_payload(loads) if loads else rover
-
-
-def _friction(word: str | None) -> float | None:
-    from rover_pin.errors import InputError
-
-    if word is None:
-        return None
-    value = number(word, "--friction")
-    if value <= 0:
-        raise InputError("must be more than zero", element="--friction", value=word)
-    return value
 
 
 def _save(stance: Stance, html: Path | None, png: Path | None) -> None:

@@ -52,6 +52,7 @@ def stance_object(stance: Stance, margins: Mapping[str, Margin]) -> dict[str, An
                 "limiting": margin.limiting,
                 "edges": margin.edges,
                 **({"note": margin.note} if margin.note else {}),
+                **({"outline_m": margin.outline} if margin.outline else {}),
             }
             for name, margin in margins.items()
         },

@@ -22,6 +22,7 @@ class Margin:
         better: `high` or `low`.
         note: what a reader must know besides; empty where nothing.
         details: further numbers, the unit in the name.
+        outline: corners (x, y) of the measure's region, world [m], counterclockwise; empty where it has none.
     """
 
     measure: str
@@ -32,6 +33,7 @@ class Margin:
     better: Literal["high", "low"]
     note: str = ""
     details: Mapping[str, float] = field(default_factory=dict)
+    outline: tuple[tuple[float, float], ...] = ()
 
     @property
     def answered(self) -> bool:

@@ -27,7 +27,8 @@ def stability(
     Args:
         stance: a settled stance.
         measures: names; None takes all there are.
-        friction: coefficient at every contact, for `friction` and `torque`; None takes what each declares.
+        friction: coefficient at every contact, for the measures that look at friction; None takes what each
+            declares.
 
     Raises:
         InputError: the stance is not settled, a measure is unknown, or the friction is not above 0.

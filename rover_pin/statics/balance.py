@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -33,6 +34,9 @@ class Balance:
         internal: (m, j) of loops, stops on which a joint stands, taut tracks.
         internal_names: (j,).
         internal_lower: (j,) least multiplier: 0 for one-sided ones, else -inf.
+        lean: (m, 2) what gravity gains per metre by which the base's mass moves along x and y, the weight
+            as it is [N or N m, per m].
+        torque: (m, t) of the motors of the joints asked for.
     """
 
     rows: tuple[str, ...]
@@ -41,10 +45,21 @@ class Balance:
     internal: Array
     internal_names: tuple[str, ...]
     internal_lower: Array
+    lean: Array
+    torque: Array
 
 
-def balance(stance: Stance) -> Balance:
+BASE_JOINT = 1
+"""Pinocchio's id of the joint of the root link."""
+
+
+def balance(stance: Stance, motors: Collection[str] = ()) -> Balance:
     """The rows of the base and of every joint that is neither driven, locked, nor a braked wheel's.
+
+    Args:
+        stance: a settled stance.
+        motors: driven joints that have rows too, each with its motor's torque (in this order) to balance it
+            and nothing else: a limit it happens to stand on carries nothing.
 
     Raises:
         InputError: the stance is not settled.
@@ -59,7 +74,11 @@ def balance(stance: Stance) -> Balance:
     rover = stance.rover
     q = np.array(stance.configuration)
     at = Kinematics(rover.model, rover.model.createData(), q)
-    held = {rover.column[joint]: float(q[rover.column[joint]]) for joint in held_joints(rover, stance.locked)}
+    held = {
+        rover.column[joint]: float(q[rover.column[joint]])
+        for joint in held_joints(rover, stance.locked)
+        if joint not in motors
+    }
     names = dict(enumerate(rover.dof_names))
     reduction = reduce_coordinates(rover.model.nv, rover.couplings, held, names, tolerance=1e-6)
     basis = reduction.basis
@@ -75,12 +94,13 @@ def balance(stance: Stance) -> Balance:
     for joint in rover.joints:
         column = rover.column[joint]
         for sign, limit in ((1.0, rover.lower[column]), (-1.0, rover.upper[column])):
-            if np.any(basis[column]) and abs(q[column] - limit) <= STOPPED:
+            if joint not in motors and np.any(basis[column]) and abs(q[column] - limit) <= STOPPED:
                 internal.append((joint, sign * basis[column], 0.0))
     for element in rover.one_sided:
         if element.slack(at) <= STOPPED:
             internal.append((element.name, element.slack_gradient(at) @ basis, 0.0))
     size = basis.shape[1]
+    turning = at.joint_jacobian(BASE_JOINT)[3:] @ basis
     return Balance(
         tuple(rover.dof_names[column] for column in reduction.columns),
         frozen(basis.T @ load),
@@ -88,4 +108,6 @@ def balance(stance: Stance) -> Balance:
         frozen(np.column_stack([row for _, row, _ in internal]) if internal else np.zeros((size, 0))),
         tuple(name for name, _, _ in internal),
         frozen([lower for _, _, lower in internal]),
+        frozen(stance.weight * np.column_stack([-turning[1], turning[0]])),
+        frozen(basis[[rover.column[joint] for joint in motors]].T.reshape(size, len(motors))),
     )

@@ -65,8 +65,7 @@ class ForceSpace:
 def force_space(rows: Rows, frames: Array, free: Sequence[bool], weight: float) -> ForceSpace:
     """Solve the equilibrium for all contact forces.
 
-    Rows and columns are scaled to unit length, so that neither newtons nor metres matter; then the
-    two-sided multipliers go by the left null space of their columns, and one SVD gives the rest.
+    Rows and columns are scaled to unit length, so that neither newtons nor metres matter.
 
     Args:
         rows: the equilibrium, m rows.
@@ -75,35 +74,63 @@ def force_space(rows: Rows, frames: Array, free: Sequence[bool], weight: float) 
         weight: N.
     """
     k = len(frames)
-    contact = np.einsum("mkw,kaw->mka", rows.contact.reshape(-1, k, 3), frames).reshape(-1, 3 * k)
+    contact = in_contact_frames(rows.contact, frames)
     one_sided = np.isfinite(rows.internal_lower)
     pushes = _unit_columns(rows.internal[:, one_sided])
-    holds = _unit_columns(rows.internal[:, ~one_sided])
-    length = np.linalg.norm(np.hstack([contact, pushes, holds]), axis=1)
-    length[length <= 1e-12 * max(length.max(initial=0.0), 1e-300)] = 1.0
-    contact, pushes, holds = contact / length[:, None], pushes / length[:, None], holds / length[:, None]
-    weighed = rows.gravity / (length * weight)
+    carries = may_carry(free)
+    particular, basis, unbalanced = solutions(
+        np.hstack([contact, pushes]),
+        _unit_columns(rows.internal[:, ~one_sided]),
+        rows.gravity / weight,
+        np.r_[carries, np.ones(pushes.shape[1], dtype=bool)],
+    )
+    return ForceSpace(particular, basis, k, unbalanced)
 
+
+def in_contact_frames(columns: Array, frames: Array) -> Array:
+    """(m, 3k) columns of each contact's normal, rolling and lateral force, from those of its world force."""
+    k = len(frames)
+    turned: Array = np.einsum("mkw,kaw->mka", columns.reshape(-1, k, 3), frames).reshape(-1, 3 * k)
+    return turned
+
+
+def may_carry(free: Sequence[bool]) -> NDArray[np.bool_]:
+    """(3k,) which of the contacts' force components there are: a free wheel has no rolling one."""
+    carries = np.ones(3 * len(free), dtype=bool)
+    carries[1::3] = ~np.asarray(free, dtype=bool)
+    return carries
+
+
+def solutions(
+    columns: Array, holds: Array, level: Array, used: NDArray[np.bool_]
+) -> tuple[Array, Array, float]:
+    """All u with columns @ u + holds @ (anything) = level, as u = particular + basis @ y.
+
+    Rows are scaled to unit length; `holds` go by their left null space, and one SVD gives the rest.
+
+    Args:
+        columns: (m, n).
+        holds: (m, h) of what is eliminated.
+        level: (m,) right side.
+        used: (n,) entries of u that may differ from zero.
+
+    Returns:
+        (n,) particular, (n, d) orthonormal basis, and the largest part of `level` that nothing balances.
+    """
+    length = np.linalg.norm(np.hstack([columns, holds]), axis=1)
+    length[length <= 1e-12 * max(length.max(initial=0.0), 1e-300)] = 1.0
+    matrix, holds, level = columns[:, used] / length[:, None], holds / length[:, None], level / length
     if holds.shape[1]:
         left, values, _ = np.linalg.svd(holds)
         held = int(np.count_nonzero(values > RANK_TOLERANCE * max(values.max(), 1e-300)))
         keep = left[:, held:].T
-        contact, pushes, weighed = keep @ contact, keep @ pushes, keep @ weighed
-
-    carries = np.ones(3 * k, dtype=bool)
-    carries[1::3] = ~np.asarray(free, dtype=bool)
-    matrix = np.hstack([contact[:, carries], pushes])
+        matrix, level = keep @ matrix, keep @ level
     left, values, right = np.linalg.svd(matrix)
     rank = int(np.count_nonzero(values > RANK_TOLERANCE * max(values.max(initial=0.0), 1e-300)))
-    least = right[:rank].T @ ((left[:, :rank].T @ weighed) / values[:rank])
-    unbalanced = float(np.max(np.abs(matrix @ least - weighed), initial=0.0))
-
-    used = np.r_[np.flatnonzero(carries), 3 * k + np.arange(pushes.shape[1])]
-    particular = np.zeros(3 * k + pushes.shape[1])
-    basis = np.zeros((particular.size, matrix.shape[1] - rank))
-    particular[used] = least
-    basis[used] = right[rank:].T
-    return ForceSpace(particular, basis, k, unbalanced)
+    least = right[:rank].T @ ((left[:, :rank].T @ level) / values[:rank])
+    particular, basis = np.zeros(len(used)), np.zeros((len(used), matrix.shape[1] - rank))
+    particular[used], basis[used] = least, right[rank:].T
+    return particular, basis, float(np.max(np.abs(matrix @ least - level), initial=0.0))
 
 
 def _unit_columns(matrix: Array) -> Array:

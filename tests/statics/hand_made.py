@@ -25,6 +25,8 @@ class Rows:
     contact: np.ndarray
     internal: np.ndarray
     internal_lower: np.ndarray
+    lean: np.ndarray = None
+    torque: np.ndarray = None
 
 
 def turn(axis: int, angle: float) -> np.ndarray:
@@ -67,7 +69,8 @@ def rigid_rows(points: Any, com: Any, weight: float) -> Rows:
     """Force and moment about the origin: the six rows of one body."""
     contact = np.hstack([np.vstack([np.eye(3), _cross(p)]) for p in np.asarray(points, dtype=float)])
     gravity = np.r_[0.0, 0.0, weight, np.cross(com, [0.0, 0.0, weight])]
-    return Rows(gravity, contact, np.zeros((6, 0)), np.zeros(0))
+    lean = np.column_stack([np.r_[np.zeros(3), np.cross(e, [0.0, 0.0, weight])] for e in np.eye(3)[:2]])
+    return Rows(gravity, contact, np.zeros((6, 0)), np.zeros(0), lean, np.zeros((6, 0)))
 
 
 def _cross(p: np.ndarray) -> np.ndarray:
@@ -85,6 +88,8 @@ def with_pivot(rows: Rows, points: Any, members: Sequence[int], pivot: Any, axis
         np.vstack([rows.contact, extra]),
         np.vstack([rows.internal, np.zeros((1, rows.internal.shape[1]))]),
         rows.internal_lower,
+        np.vstack([rows.lean, np.zeros((1, 2))]),
+        np.zeros((len(rows.gravity) + 1, 0)),
     )
 
 
@@ -141,7 +146,15 @@ def stance_of(
     )
     bearing = tuple(i for i, wheel in enumerate(wheels) if not wheel.auxiliary)
     rover: Any = SimpleNamespace(
-        name="hand_made", mass=weight / 9.81, wheels=wheels, bearing=bearing, belly=belly
+        name="hand_made",
+        mass=weight / 9.81,
+        wheels=wheels,
+        bearing=bearing,
+        belly=belly,
+        actuated=(),
+        loops=(),
+        effort=np.zeros(0),
+        column={},
     )
     terrain: Any = SimpleNamespace(label="nowhere")
     return Stance(

@@ -1,0 +1,75 @@
+"""Slopes at tip and at slip as an xarray Dataset with units and provenance."""
+
+from __future__ import annotations
+
+import datetime
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from rover_pin.analysis.provenance import git_state, versions
+
+if TYPE_CHECKING:
+    from rover_pin.analysis.slopes.tilt_table import Limits
+    from rover_pin.rover import Rover
+
+HEADING = "heading_rad"
+
+
+def as_dataset(
+    rover: Rover, found: Sequence[Limits], friction: float | None, how: Mapping[str, Any]
+) -> xr.Dataset:
+    """The Dataset from the limits of headings evenly over the circle."""
+    commit, state = git_state(Path(__file__).resolve().parent)
+
+    def told(name: str, text: str, unit: str = "") -> tuple[str, Any, dict[str, str]]:
+        values: Any = [getattr(each, name) for each in found]
+        return HEADING, values, {**({"units": unit} if unit else {}), "long_name": text}
+
+    tip, slip = (np.array([getattr(each, name) for each in found]) for name in ("tip", "slip"))
+    return xr.Dataset(
+        {
+            "tip_rad": told("tip", "least slope without a stance", "rad"),
+            "slip_rad": told(
+                "slip", "least slope that friction does not hold; NaN where it tips first", "rad"
+            ),
+            "stands_to_rad": (
+                HEADING,
+                np.fmin(tip, slip),
+                {"units": "rad", "long_name": "the lesser of both"},
+            ),
+            "tip_open_rad": told("tip_open", "width of the bracket about the slope at tip", "rad"),
+            "slip_open_rad": told("slip_open", "width of the bracket about the slope at slip", "rad"),
+            "tip_limiting": told("tip_limiting", "wheel, joint or link that ends it"),
+            "tip_status": told("tip_status", "how the stance ends"),
+            "slip_limiting": told("slip_limiting", "contact that slips first"),
+        },
+        coords={
+            HEADING: (
+                HEADING,
+                2.0 * np.pi * np.arange(len(found)) / len(found),
+                {
+                    "units": "rad",
+                    "long_name": "in the slope from straight uphill, counterclockwise from above",
+                },
+            )
+        },
+        attrs={
+            "title": f"{rover.name} on slopes",
+            "robot": rover.name,
+            "robot_file": str(rover.source),
+            "parameters": ", ".join(f"{name}={value!r}" for name, value in rover.parameters.items()),
+            "posture": "home" if how["posture"] is None else str(how["posture"]),
+            "joints": ", ".join(f"{name}={value!r}" for name, value in (how["joints"] or {}).items()),
+            "locks": ", ".join(how["locks"]),
+            "gravity": how["gravity"],
+            "friction": "as declared" if friction is None else float(friction),
+            "rover_pin_git_commit": commit,
+            "rover_pin_git_state": state,
+            **{f"{name}_version": text for name, text in versions().items()},
+            "created": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
+        },
+    )
