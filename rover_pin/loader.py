@@ -9,10 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
-from rover_pin.description import catalogue
+from rover_pin.description import catalogue, examples
 from rover_pin.description.actuation import actuated_joints
 from rover_pin.description.couplings import gather_couplings
 from rover_pin.description.expand import expand
+from rover_pin.description.gepetto import stands_in
 from rover_pin.description.geometry import read_geometry
 from rover_pin.description.model import BASE_DOF, build_model, joint_names, set_limits
 from rover_pin.description.notes import Notes
@@ -38,8 +39,9 @@ def load(
     """A rover from a bundled name, or from a URDF or xacro file.
 
     Args:
-        name_or_path: `rocker_bogie`, or a path. Xacro evaluates expressions: load only files you trust.
-        sidecar: its file; where silent, `rover.yaml` beside the description, else all is guessed and noted.
+        name_or_path: `rocker_bogie`, `example:anymal_b`, or a path. Xacro evaluates expressions: load only files you trust.
+        sidecar: its file, or an SRDF; where silent, `rover.yaml` beside the description, else Gepetto's
+            `robot.yaml` there, else only what the URDF says.
         packages: ROS package -> folder, for `package://` and `$(find ...)`.
         skip_missing_includes: leave out xacro includes that are not there.
         **parameters: numbers for parameters that the sidecar declares.
@@ -48,7 +50,7 @@ def load(
         InputError: anything that cannot be used, with file, element, value and cure.
     """
     bundled, path = catalogue.locate(name_or_path)
-    sidecar_path = _sidecar_of(path, sidecar)
+    sidecar_path = _sidecar_of(bundled, path, sidecar)
     return _from_files(
         bundled,
         path,
@@ -76,11 +78,16 @@ def reload(recipe: Recipe, parameters: Mapping[str, float]) -> Rover:
     return rover.with_payload(recipe.payload) if recipe.payload else rover
 
 
-def _sidecar_of(path: Path, given: str | Path | None) -> Path | None:
+def _sidecar_of(bundled: str | None, path: Path, given: str | Path | None) -> Path | None:
     if given is not None:
         return Path(given).expanduser()
+    if bundled is not None and bundled.startswith(examples.PREFIX):
+        return examples.sidecar_of(bundled)
     beside = path.parent / catalogue.SIDECAR
-    return beside if beside.is_file() else None
+    if beside.is_file():
+        return beside
+    theirs = path.parent / catalogue.GEPETTO
+    return theirs if theirs.is_file() and stands_in(theirs) else None
 
 
 def _from_files(
@@ -91,13 +98,14 @@ def _from_files(
     skip: bool,
     parameters: Mapping[str, float],
 ) -> Rover:
-    spec, sidecar_text = (Sidecar(), None) if sidecar_path is None else load_sidecar(sidecar_path)
+    found = Packages(path, packages)
+    spec, sidecar_text = (Sidecar(), None) if sidecar_path is None else load_sidecar(sidecar_path, found)
     values = parameter_values(spec.parameters, parameters)
     used: set[str] = set()
     if sidecar_text is not None:
         used.update(*(formula.names for formula in formulas_of(sidecar_text, sidecar_path).values()))
     notes = Notes()
-    text = expand(path, values, Packages(path, packages), notes, skip, sidecar_path, used)
+    text = expand(path, values, found, notes, skip, sidecar_path, used)
     return assemble(
         Recipe(bundled, path, text, sidecar_path, sidecar_text, values, packages, skip, notes=notes.lines())
     )
@@ -123,9 +131,12 @@ def assemble(recipe: Recipe) -> Rover:
     placer = Placer(model, made.turning_axes(), file, notes)
     touching = placer.place(sidecar, made)
     driven = [w.drive for w in touching.wheels if w.drive is not None and w.drive in made.continuous]
-    actuated = actuated_joints(made.tree, joints, sidecar.actuated, sidecar.passive, driven, notes, file)
+    idle = sidecar.states.passive
+    actuated = actuated_joints(
+        made.tree, joints, sidecar.actuated, sidecar.passive, driven, notes, file, idle
+    )
     couplings = gather_couplings(made.mimics, sidecar.couplings, made.held, notes, file)
-    find_mesh = Packages(recipe.source, recipe.packages).resolve
+    meshes = Packages(recipe.source, recipe.packages)
     rover = Rover(
         name=name,
         urdf=made.urdf,
@@ -142,11 +153,11 @@ def assemble(recipe: Recipe) -> Rover:
         wheels=touching.wheels,
         feet=touching.feet,
         belly=touching.belly,
-        postures=checked_postures(sidecar, columns, made.held, limits, file),
+        postures=checked_postures(sidecar, columns, made.held, limits, notes, file),
         recipe=dataclasses.replace(recipe, payload=()),
         loading_notes=notes.lines(),
         read_geometry=functools.cache(
-            lambda: read_geometry(made.tree, model, find_mesh, touching.wheel_links)
+            lambda: read_geometry(made.tree, model, meshes.resolve, touching.wheel_links, meshes.advice)
         ),
     )
     rover = _with_tracks(rover, sidecar)

@@ -108,7 +108,7 @@ def run_xacro(
     except DescriptionError:
         raise
     except Exception as error:  # xacro raises whatever an expression of the file raises
-        raise DescriptionError(f"xacro: {error}", file=path, cure=_cure(str(error))) from error
+        raise DescriptionError(f"xacro: {error}", file=path, cure=_cure(str(error), packages)) from error
     for line in said.getvalue().splitlines():
         if line.strip():
             notes.add(f"xacro: {line.strip()}")
@@ -120,11 +120,12 @@ def written(value: float) -> str:
     return str(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)
 
 
-def _cure(message: str) -> str:
+def _cure(message: str, packages: Packages) -> str:
     missing = re.search(r"package://([^/\s]+)", message)
     if missing:
         name = missing.group(1)
         return (
+            f"tried {', '.join(packages.tried(name))}; "
             f"give its folder: packages={{'{name}': ...}} or --package {name}=..., or skip missing includes"
         )
     if "No such file" in message:

@@ -91,7 +91,11 @@ class _Shape:
 
 
 def read_geometry(
-    tree: Tree, model: pin.Model, resolve: Callable[[str], Path | None], without_hull: Collection[str]
+    tree: Tree,
+    model: pin.Model,
+    resolve: Callable[[str], Path | None],
+    without_hull: Collection[str],
+    advice: Callable[[str], str] | None = None,
 ) -> Geometry:
     """Visual and collision shapes of a URDF; meshes are found but not opened.
 
@@ -100,6 +104,7 @@ def read_geometry(
         model: its Pinocchio model, for the links' places.
         resolve: address of a mesh -> its file, or None.
         without_hull: links whose collision shapes do not count: the wheels.
+        advice: address of a mesh in a package -> where it was looked for, and the cure.
     """
     notes = Notes()
     robot = _structure(tree, notes)
@@ -114,6 +119,9 @@ def read_geometry(
             Visual(shape.link, shape.joint, shape.placement, shape.kind, shape.size, mesh, shape.rgba)
         )
     notes.many(missing, "mesh {name} is missing: not drawn", "{n} meshes are missing: not drawn ({names})")
+    packages = {address.split("/")[2]: address for address in missing if address.startswith("package://")}
+    for name, address in packages.items() if advice is not None else ():
+        notes.add(f"package {name}: {advice(address)}")
     points: list[BodyPoint] = []
     corners: list[BodyPoint] = []
     meshed = []

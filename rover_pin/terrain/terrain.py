@@ -184,7 +184,7 @@ class Terrain(Ground):
     ) -> Terrain:
         """A height map from a file: TIFF or GeoTIFF, .npy, .npz, .csv, .png, .asc; rows along +y.
 
-        The order is the file's, save that an .asc says which row lies north: its last row is the first along y.
+        The order is the file's, save that of an .asc, whose last row lies south and so comes first.
 
         Args:
             path: the file.

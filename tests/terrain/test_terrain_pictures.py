@@ -126,14 +126,16 @@ def test_a_grid_may_break_its_lines_anywhere_and_say_little(tmp_path):
          "the first at row 0, column 0; fill them or cut them off"),
         ("cellsize 0.5\n", "", "cellsize: missing; write `cellsize NUMBER` above the heights"),
         ("cellsize 0.5", "cellsize -1", "cellsize: must be positive (got -1.0)"),
-        ("cellsize 0.5", "celsize 0.5", "line 5: unknown key (got 'celsize'); did you mean 'cellsize' or 'ncols'?"),
-        ("nrows 3", "nrows 4", "holds 12 heights where nrows x ncols is 16; mend the header, or fetch the whole file"),
+        ("cellsize 0.5", "celsize 0.5", "line 5: unknown key (got 'celsize'); "
+         "did you mean 'cellsize' or 'ncols'?"),
+        ("nrows 3", "nrows 4", "holds 12 heights where nrows x ncols is 16; "
+         "mend the header, or fetch the whole file"),
         ("nrows 3", "nrows 2.5", "nrows: not a whole number above zero (got 2.5)"),
         ("nrows 3", "nrows 3\nnrows 3", "line 3, nrows: stands twice; keep one"),
         ("nrows 3", "nrows three", "line 2, nrows: not a number (got 'three'); write a number"),
         ("6 7", "6 7,5", "line 8, column 3: not a number (got '7,5'); write a number"),
-        ("cellsize 0.5", "cellsize 0.5\nxllcenter 2", "xllcorner: both the corner and the centre of the first cell "
-         "are given; keep one"),
+        ("cellsize 0.5", "cellsize 0.5\nxllcenter 2", "xllcorner: both the corner and the centre of the "
+         "first cell are given; keep one"),
     ],
 )  # fmt: skip
 def test_grids_that_cannot_be_used(tmp_path, old, new, told):

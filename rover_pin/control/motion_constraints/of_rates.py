@@ -44,5 +44,3 @@ class ChangeOfRates(OfRates):
         """(parts,) less what is commanded."""
         value: Array = -(self.gradient(now) @ now.nominal)
         return value
-
-
