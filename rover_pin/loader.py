@@ -13,8 +13,8 @@ from rover_pin.description import catalogue, examples
 from rover_pin.description.actuation import actuated_joints
 from rover_pin.description.couplings import gather_couplings
 from rover_pin.description.expand import expand
-from rover_pin.description.gepetto import stands_in
 from rover_pin.description.geometry import read_geometry
+from rover_pin.description.gepetto import stands_in
 from rover_pin.description.model import BASE_DOF, build_model, joint_names, set_limits
 from rover_pin.description.notes import Notes
 from rover_pin.description.packages import Packages
@@ -39,7 +39,8 @@ def load(
     """A rover from a bundled name, or from a URDF or xacro file.
 
     Args:
-        name_or_path: `rocker_bogie`, `example:anymal_b`, or a path. Xacro evaluates expressions: load only files you trust.
+        name_or_path: `rocker_bogie`, `example:anymal_b`, or a path. Xacro evaluates expressions: load only
+            files you trust.
         sidecar: its file, or an SRDF; where silent, `rover.yaml` beside the description, else Gepetto's
             `robot.yaml` there, else only what the URDF says.
         packages: ROS package -> folder, for `package://` and `$(find ...)`.
@@ -59,6 +60,15 @@ def load(
         skip_missing_includes,
         parameters,
     )
+
+
+def load_bare(path: Path, packages: Mapping[str, str], skip_missing_includes: bool = False) -> Rover:
+    """What a URDF or xacro file says by itself, whatever lies beside it.
+
+    Raises:
+        InputError: as `load`.
+    """
+    return _from_files(None, path, None, packages, skip_missing_includes, {})
 
 
 def reload(recipe: Recipe, parameters: Mapping[str, float]) -> Rover:

@@ -35,10 +35,7 @@ def settled_loads(
     for joint in clutches:
         if joint not in rover.lockable:
             raise InputError(
-                "no joint that can be locked",
-                element="locked",
-                value=joint,
-                cure=nearest(joint, rover.lockable),
+                "no joint that can be locked", element="locked", value=joint, cure=nearest(joint, rover.lockable)
             )
     drives = {wheel.drive for wheel in rover.wheels}
     given = [name for name in (*rover.actuated, *clutches) if name not in drives]

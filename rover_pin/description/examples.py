@@ -1,7 +1,8 @@
-"""Robots of the package example-robot-data by name, with the feet and wheels that their URDFs do not declare."""
+"""Robots of the package example-robot-data by name, with the feet and wheels their URDFs do not declare."""
 
 from __future__ import annotations
 
+import contextlib
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -79,10 +80,8 @@ def _example(name: str) -> Example:
 
 def _places() -> Iterator[Path]:
     """Where the package's robots may lie: its wheel's own files, then prefixes of this environment."""
-    try:
+    with contextlib.suppress(metadata.PackageNotFoundError):
         yield Path(str(metadata.distribution(_DISTRIBUTION).locate_file("cmeel.prefix"))) / _ROBOTS
-    except metadata.PackageNotFoundError:
-        pass
     yield from (
         Path(entry) / "cmeel.prefix" / _ROBOTS for entry in sys.path if entry.endswith("site-packages")
     )

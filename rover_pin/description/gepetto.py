@@ -1,7 +1,7 @@
 """The `robot.yaml` of Gepetto's example-parallel-robots, in the words of our sidecar.
 
 `closed_loop: [[a, b]]` with `type: [6d | 3d]` are welds and balls; `name_mot` are the driven joints;
-`joint_name` with `joint_type: [SPHERICAL | CARDAN | FIXED]` are joints that move otherwise than the URDF says.
+`joint_name` with `joint_type: [SPHERICAL | CARDAN | FIXED]` are joints of another type than the URDF says.
 The keys are those of https://github.com/Gepetto/example-parallel-robots (`loader_tools.py`).
 """
 

@@ -1,4 +1,4 @@
-"""Files that a sidecar names: their texts are kept in its own, so that a rover is made again without files."""
+"""Files that a sidecar names: their texts are kept in its own, to make a rover again without files."""
 
 from __future__ import annotations
 

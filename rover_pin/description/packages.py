@@ -18,8 +18,8 @@ class Packages:
     """Finds the folder of a ROS package.
 
     In this order: the map the user gave; a folder above the file that bears the package's name or whose
-    `package.xml` does; ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; a folder of that name beside one of those above
-    the file; an installed ROS, where there is one.
+    `package.xml` does; ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; a folder of that name beside one of those
+    above the file; an installed ROS, where there is one.
 
     Args:
         near: the file that speaks of packages.

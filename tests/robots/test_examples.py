@@ -32,13 +32,14 @@ def test_it_stands_on_flat_ground_and_carries_its_weight(name):
 
 
 def test_anymal_against_a_computation_by_hand():
-    """Its feet and CoM by Pinocchio on the URDF itself; the plane through the balls; margins by plain geometry."""
+    """Its feet and CoM by Pinocchio on the URDF itself; margins by plain geometry."""
     rover = rp.load("example:anymal_b")
     stance = rp.settle(rover, rp.Terrain.flat())
     model = pin.buildModelFromUrdf(str(rover.source), pin.JointModelFreeFlyer())
     q = pin.neutral(model)
-    for leg, haa, hfe, kfe in (("LF", -0.1, 0.7, -1), ("RF", 0.1, 0.7, -1), ("LH", -0.1, -0.7, 1), ("RH", 0.1, -0.7, 1)):  # fmt: skip
-        for joint, value in (("HAA", haa), ("HFE", hfe), ("KFE", kfe)):
+    standing = {"LF": (-0.1, 0.7, -1), "RF": (0.1, 0.7, -1), "LH": (-0.1, -0.7, 1), "RH": (0.1, -0.7, 1)}
+    for leg, angles in standing.items():
+        for joint, value in zip(("HAA", "HFE", "KFE"), angles, strict=True):
             q[model.joints[model.getJointId(f"{leg}_{joint}")].idx_q] = value
     data = model.createData()
     com = pin.centerOfMass(model, data, q)

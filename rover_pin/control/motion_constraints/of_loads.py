@@ -36,9 +36,7 @@ class OfLoads(MotionConstraint):
         """
         if now.loads is None:
             raise InputError(
-                "needs the wheels' loads",
-                element=self.name,
-                cure="give `loads`, or leave it out of this cycle",
+                "needs the wheels' loads", element=self.name, cure="give `loads`, or leave it out of this cycle"
             )
         return np.array([self._of(now.loads, now.lifted)])
 
@@ -75,9 +73,7 @@ class OfLoads(MotionConstraint):
             raise InputError("no wheel stands", element=self.name, value=", ".join(lifted))
         for wheel in standing:
             if wheel not in loads:
-                raise InputError(
-                    "has no load", element=wheel, cure=f"{self.name} needs every standing wheel's"
-                )
+                raise InputError("has no load", element=wheel, cure=f"{self.name} needs every standing wheel's")
             if not math.isfinite(loads[wheel]):
                 raise InputError("is no finite number", element=f"load of {wheel}", value=loads[wheel])
         return self.statistic(np.array([loads[wheel] for wheel in standing]))

@@ -44,3 +44,5 @@ class ChangeOfRates(OfRates):
         """(parts,) less what is commanded."""
         value: Array = -(self.gradient(now) @ now.nominal)
         return value
+
+

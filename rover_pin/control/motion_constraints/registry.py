@@ -50,8 +50,6 @@ def motion_constraints(
     wanted = tuple(CONSTRAINTS) if names is None else tuple(names)
     for name in wanted:
         if name not in CONSTRAINTS:
-            raise InputError(
-                "no motion constraint of that name", element=name, cure=nearest(name, CONSTRAINTS)
-            )
+            raise InputError("no motion constraint of that name", element=name, cure=nearest(name, CONSTRAINTS))
     stations = Stations(rover, layout)
     return {name: CONSTRAINTS[name](stations, options) for name in wanted}

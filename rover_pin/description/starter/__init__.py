@@ -1,0 +1,5 @@
+"""A sidecar to start from: what a URDF suggests, each guess commented out and marked with its reason."""
+
+from rover_pin.description.starter.write import Guess, Start, start
+
+__all__ = ["Guess", "Start", "start"]
