@@ -12,11 +12,13 @@ import numpy as np
 from rover_pin.description import catalogue, examples
 from rover_pin.description.actuation import actuated_joints
 from rover_pin.description.couplings import gather_couplings
-from rover_pin.description.expand import expand
+from rover_pin.description.expand import expand, refuse_undeclared
 from rover_pin.description.geometry import read_geometry
 from rover_pin.description.gepetto import stands_in
+from rover_pin.description.mjcf import Converted, convert, is_mjcf
 from rover_pin.description.model import BASE_DOF, build_model, joint_names, set_limits
 from rover_pin.description.notes import Notes
+from rover_pin.description.others import Kind, Other
 from rover_pin.description.packages import Packages
 from rover_pin.description.parameters import parameter_values
 from rover_pin.description.prepare import prepare
@@ -108,17 +110,33 @@ def _from_files(
     skip: bool,
     parameters: Mapping[str, float],
 ) -> Rover:
-    found = Packages(path, packages)
-    spec, sidecar_text = (Sidecar(), None) if sidecar_path is None else load_sidecar(sidecar_path, found)
+    found, notes = Packages(path, packages), Notes()
+    mjcf = _converted(path, notes)
+    extra: dict[Kind, Other] | None = (
+        None if mjcf is None else {"mjcf": Other(file=str(path), text=mjcf.sidecar)}
+    )
+    spec, sidecar_text = load_sidecar(sidecar_path, found, extra)
     values = parameter_values(spec.parameters, parameters)
     used: set[str] = set()
     if sidecar_text is not None:
         used.update(*(formula.names for formula in formulas_of(sidecar_text, sidecar_path).values()))
-    notes = Notes()
-    text = expand(path, values, found, notes, skip, sidecar_path, used)
+    if mjcf is None:
+        text = expand(path, values, found, notes, skip, sidecar_path, used)
+    else:
+        refuse_undeclared(path, values, sidecar_path, used)
+        text = mjcf.urdf
     return assemble(
         Recipe(bundled, path, text, sidecar_path, sidecar_text, values, packages, skip, notes=notes.lines())
     )
+
+
+def _converted(path: Path, notes: Notes) -> Converted | None:
+    """An MJCF file in our terms; None where the file is something else, or nothing to read."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        return None
+    return convert(text, path, notes) if is_mjcf(text) else None
 
 
 def assemble(recipe: Recipe) -> Rover:
@@ -130,7 +148,7 @@ def assemble(recipe: Recipe) -> Rover:
     file, text = recipe.sidecar_path, recipe.sidecar_text
     sidecar = Sidecar() if text is None else read_sidecar(text, file, recipe.parameters)
     notes = Notes(recipe.notes)
-    if text is None:
+    if file is None:
         notes.add("no sidecar: suspension, wheels and actuation are only what the URDF says")
     made = prepare(recipe, sidecar, notes)
     name = recipe.name or made.tree.name or recipe.source.stem

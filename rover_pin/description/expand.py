@@ -169,6 +169,17 @@ def _around_xacro(packages: Packages, notes: Notes, skip: bool) -> Iterator[None
         substitution_args._eval_find, xacro.process_include = usual_find, usual_include
 
 
+def refuse_undeclared(
+    path: Path, values: Mapping[str, float], declared_in: object, used: Collection[str]
+) -> None:
+    """Nothing where a formula uses every parameter of a file without arguments.
+
+    Raises:
+        SidecarError: one is used by none.
+    """
+    _refuse_undeclared(path, values, None, declared_in, used)
+
+
 def _refuse_undeclared(
     path: Path,
     values: Mapping[str, float],

@@ -11,8 +11,9 @@ from pydantic import BaseModel, ConfigDict
 from rover_pin.description.packages import Packages
 from rover_pin.errors import SidecarError
 
-Kind = Literal["srdf", "robot_yaml"]
-KINDS: tuple[Kind, ...] = ("srdf", "robot_yaml")
+Kind = Literal["srdf", "robot_yaml", "mjcf"]
+NAMED: tuple[Kind, ...] = ("srdf", "robot_yaml")
+"""Those that a sidecar names; the sidecar part of an MJCF comes with its tree."""
 
 
 class Other(BaseModel):

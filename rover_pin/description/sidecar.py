@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Discriminator, Field, FiniteFloat, T
 
 from rover_pin.description.formulas import Formula, Path, fill_in, formula_of, formulas_in
 from rover_pin.description.gepetto import KEYS, is_gepetto, translated
-from rover_pin.description.others import KINDS, Kind, Other, found_by, read_other, with_others
+from rover_pin.description.others import NAMED, Kind, Other, found_by, read_other, with_others
 from rover_pin.description.packages import Packages
 from rover_pin.description.parameters import ParameterSpec
 from rover_pin.description.reading import dotted, parse_yaml, place, validated
@@ -143,6 +143,10 @@ def _with_embedded(data: dict[str, Any]) -> dict[str, Any]:
         data["retype"] = {**theirs.get("retype", {}), **data.get("retype", {})}
         if "actuated" in theirs and "passive" not in data:
             data.setdefault("actuated", theirs["actuated"])
+    if "mjcf" in others:
+        theirs = parse_yaml(others["mjcf"]["text"], others["mjcf"]["file"])[0]
+        for key in ("loops", "couplings", "springs"):
+            data[key] = [*data.get(key, ()), *theirs.get(key, ())]
     if "srdf" in others:
         found = read_srdf(others["srdf"]["text"], others["srdf"]["file"])
         data["postures"] = {**found.postures, **data.get("postures", {})}
@@ -160,28 +164,45 @@ def formulas_of(text: str, file: object) -> Mapping[Path, Formula]:
     return {path: formula_of(formula) for path, formula in formulas_in(data)}
 
 
-def load_sidecar(path: File, packages: Packages) -> tuple[Sidecar, str]:
+def load_sidecar(
+    path: File | None, packages: Packages, extra: Mapping[Kind, Other] | None = None
+) -> tuple[Sidecar, str | None]:
     """A sidecar from its file, and the text; an SRDF alone is one that names it.
+
+    Args:
+        path: the file, or None where there is none.
+        packages: where `package://` looks.
+        extra: what else is said beside the URDF.
 
     Raises:
         SidecarError: as `read_sidecar`, or a file cannot be read.
         DescriptionError: an SRDF that cannot be used.
     """
-    if path.suffix == ".srdf":
-        text = with_others(f"schema: {SCHEMA}", {"srdf": read_other(path)})
-        return read_sidecar(text, path), text
+    others: dict[Kind, Other] = dict(extra or {})
+    if path is None and not others:
+        return Sidecar(), None
+    text = f"schema: {SCHEMA}"
+    if path is not None and path.suffix == ".srdf":
+        others["srdf"] = read_other(path)
+    elif path is not None:
+        text = _text_of(path)
+        sidecar = read_sidecar(text, path)
+        named = {kind: getattr(sidecar, kind) for kind in NAMED}
+        others |= {kind: found_by(name, kind, path, packages) for kind, name in named.items() if name}
+        if not others:
+            return sidecar, text
+        if "schema" not in parse_yaml(text, path)[0]:
+            text = f"{text.rstrip()}\nschema: {SCHEMA}"
+    text = with_others(text, others)
+    return read_sidecar(text, path), text
+
+
+def _text_of(path: File) -> str:
     try:
-        text = path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         what = "no such file" if isinstance(error, FileNotFoundError) else f"cannot be read: {error}"
         raise SidecarError(what, file=path, cure="give the path of a rover.yaml") from error
-    sidecar = read_sidecar(text, path)
-    named = {kind: getattr(sidecar, kind) for kind in KINDS}
-    others = {kind: found_by(name, kind, path, packages) for kind, name in named.items() if name}
-    if others:
-        text = with_others(text, others)
-        sidecar = read_sidecar(text, path)
-    return sidecar, text
 
 
 def _once(names: Sequence[str], key: str, file: object) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -154,7 +155,7 @@ def _of_mesh(subject: Subject, shape: LinkShape, placed: Array, axis: Array) -> 
     if path is None:
         return None
     try:
-        mesh = trimesh.load(path, force="mesh")
+        mesh: Any = trimesh.load(path, force="mesh")
         corners = np.asarray(mesh.vertices) * np.array(shape.size)
     except Exception:  # trimesh raises whatever a damaged mesh or a missing reader makes it raise
         return None
