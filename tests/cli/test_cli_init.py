@@ -1,4 +1,4 @@
-"""`init`: what is guessed of a URDF, marked as guesses, and what becomes of them once they are uncommented."""
+"""`init`: what is guessed of a URDF, marked as guesses, and what becomes of them once uncommented."""
 
 import json
 import re
@@ -106,16 +106,17 @@ def test_loops_of_gazebo_tags_and_mimics(make, tmp_path):
         "<pose>0.1 0 0 0 0 0</pose><axis><xyz>0 1 0</xyz></axis></joint></gazebo>"
         '<gazebo><joint name="odd" type="screw"><parent>base</parent><child>b</child></joint></gazebo>'
     )
+    follows = '<mimic joint="rocker_a" multiplier="-2" offset="0.1"/>'
     parts = [
         make.link("base"), make.link("a"), make.link("b"),
         make.joint("rocker_a", "base", "a", xyz="0 0 0.2"),
-        make.joint("j", "a", "b", xyz="0.3 0 0", extra='<mimic joint="rocker_a" multiplier="-2" offset="0.1"/>'),
+        make.joint("j", "a", "b", xyz="0.3 0 0", extra=follows),
         gazebo,
     ]  # fmt: skip
     text = begun(make.write(*parts), tmp_path / "out.yaml")
     assert (
-        "#   - {name: shut, frames: [{link: b, xyz: [0.1, 0, 0]}, base], type: hinge, axis: [0, 1, 0], at: zero}"
-        "  # guess: joint shut of a <gazebo> tag, type revolute"
+        "#   - {name: shut, frames: [{link: b, xyz: [0.1, 0, 0]}, base], type: hinge, axis: [0, 1, 0], "
+        "at: zero}  # guess: joint shut of a <gazebo> tag, type revolute"
     ) in text
     assert (
         "#   - {name: mimic_j, joints: {j: 1, rocker_a: 2}, offset: 0.1}  # <mimic> of j, read already"

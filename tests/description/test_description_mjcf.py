@@ -34,8 +34,11 @@ XML = """<?xml version="1.0"?>
 <weld name="w" body1="b4" body2="b3"/><connect name="off" body1="b3" body2="arm" anchor="0 0 0" active="false"/></equality>
 <actuator><motor name="m" joint="drive" gear="3"/></actuator>
 </mujoco>"""  # noqa: E501
-ONE = '<mujoco><worldbody>{body}</worldbody>{more}</mujoco>'
-BODY = '<body name="a"><freejoint/><geom size="0.1"/><body name="b"><joint name="j"/><geom size="0.1"/></body></body>'
+ONE = "<mujoco><worldbody>{body}</worldbody>{more}</mujoco>"
+BODY = (
+    '<body name="a"><freejoint/><geom size="0.1"/><body name="b"><joint name="j"/><geom '
+    'size="0.1"/></body></body>'
+)
 
 
 @pytest.fixture
@@ -53,7 +56,9 @@ def posed(rover, model, rng):
     """The same random pose for both."""
     data = mujoco.MjData(model)
     data.qpos[:] = model.qpos0
-    values = {name: rng.uniform(-0.3, 0.3) for name in ("swing", "drive", "tilt", "ball_X", "ball_Y", "ball_Z")}
+    values = {
+        name: rng.uniform(-0.3, 0.3) for name in ("swing", "drive", "tilt", "ball_X", "ball_Y", "ball_Z")
+    }
     values |= {"push": rng.uniform(-0.1, 0.1), "hinge2": rng.uniform(-0.1, 0.1)}
     for name, value in values.items():
         if not name.startswith("ball"):
@@ -96,8 +101,9 @@ def test_places_masses_and_inertias_are_mujocos(both):
 
 
 def test_limits_springs_and_actuators(both):
-    rover, model = both
-    assert rover.joints == ("swing", "push", "drive", "ball_X", "ball_Y", "ball_Z", "tilt", "hinge2")
+    rover, _ = both
+    balls = {"ball_X", "ball_Y", "ball_Z"}
+    assert set(rover.joints) == {"swing", "push", "drive", *balls, "tilt", "hinge2"}
     assert rover.actuated == ("drive",)
     low, high = (limits[rover.column["swing"]] for limits in (rover.lower, rover.upper))
     assert (low, high) == pytest.approx((np.radians(-35), np.radians(35)))
@@ -120,7 +126,9 @@ def test_equalities_hold_where_mujocos_do(both):
         at = Kinematics(rover.model, rover.model.createData(), q)
         gaps = {k: data.efc_pos[(data.efc_type == 0) & (data.efc_id == k)] for k in (0, 1, 2)}
         assert np.linalg.norm(loops["c"].residual(at)) == pytest.approx(np.linalg.norm(gaps[0]), rel=1e-9)
-        assert np.linalg.norm(loops["w"].residual(at)[:3]) == pytest.approx(np.linalg.norm(gaps[2][:3]), rel=1e-9)
+        assert np.linalg.norm(loops["w"].residual(at)[:3]) == pytest.approx(
+            np.linalg.norm(gaps[2][:3]), rel=1e-9
+        )
         joints = {name: q[rover.column[name]] for name in ("swing", "hinge2")}
         assert joints["swing"] - 2 * joints["hinge2"] - 0.01 == pytest.approx(gaps[1][0], abs=1e-12)
         assert abs(coupling.residual(at)[0]) == pytest.approx(abs(gaps[1][0]), abs=1e-12)
@@ -143,7 +151,8 @@ def test_includes_and_fixed_tendons(tmp_path):
     (tmp_path / "parts.xml").write_text(f"<mujoco><worldbody>{BODY}</worldbody></mujoco>")
     path = tmp_path / "m.xml"
     path.write_text(
-        '<mujoco><include file="parts.xml"/><tendon><fixed name="t"><joint joint="j" coef="3"/></fixed></tendon>'
+        '<mujoco><include file="parts.xml"/><tendon><fixed name="t"><joint joint="j" '
+        'coef="3"/></fixed></tendon>'
         '<equality><tendon tendon1="t" polycoef="0.6 0 0 0 0"/></equality></mujoco>'
     )
     rover = rp.load(path)
@@ -155,30 +164,63 @@ def test_includes_and_fixed_tendons(tmp_path):
 @pytest.mark.parametrize(
     ("body", "more", "told"),
     [
-        (BODY, '<equality><joint joint1="j" polycoef="0 1 2 0 0"/></equality>', "<joint>: not linear "
-         "(got '0 1 2 0 0'); keep the first two of polycoef"),
-        (BODY, '<equality><joint joint1="jj"/></equality>', "<joint>: joint1 is no joint of the robot (got 'jj'); "
-         "name a <joint>"),
-        (BODY, '<equality><connect name="c" body1="b" anchor="0 0 0"/></equality>', "<connect> c: body2 is no body "
-         "of the robot (got 'the world'); a loop ties two bodies of the robot"),
-        (BODY.replace('size="0.1"', 'size="-1"', 1), "", "<geom>: a sphere needs 1 sizes above zero (got '[-1.0]'); "
-         "give them in m"),
-        (BODY.replace('size="0.1"', 'size="x"', 1), "", "<geom>: size is not a list of finite numbers (got 'x'); "
-         "give plain numbers"),
-        (BODY + BODY.replace('"a"', '"c"'), "", "<worldbody>: 2 bodies that move, or none of several in the world; "
-         "a robot is one (got 'a, c'); leave one in the file"),
+        (
+            BODY,
+            '<equality><joint joint1="j" polycoef="0 1 2 0 0"/></equality>',
+            "<joint>: not linear (got '0 1 2 0 0'); keep the first two of polycoef",
+        ),
+        (
+            BODY,
+            '<equality><joint joint1="jj"/></equality>',
+            "<joint>: joint1 is no joint of the robot (got 'jj'); name a <joint>",
+        ),
+        (
+            BODY,
+            '<equality><connect name="c" body1="b" anchor="0 0 0"/></equality>',
+            "<connect> c: body2 is no body "
+            "of the robot (got 'the world'); a loop ties two bodies of the robot",
+        ),
+        (
+            BODY.replace('size="0.1"', 'size="-1"', 1),
+            "",
+            "<geom>: a sphere needs 1 sizes above zero (got '[-1.0]'); give them in m",
+        ),
+        (
+            BODY.replace('size="0.1"', 'size="x"', 1),
+            "",
+            "<geom>: size is not a list of finite numbers (got 'x'); give plain numbers",
+        ),
+        (
+            BODY + BODY.replace('"a"', '"c"'),
+            "",
+            "<worldbody>: 2 bodies that move, or none of several in the world; "
+            "a robot is one (got 'a, c'); leave one in the file",
+        ),
         ("", "", "<worldbody>: no body in the world; a robot is one; leave one in the file"),
-        (BODY.replace('name="j"', 'name="j" axis="0 0 0"'), "", "<joint> j: a zero axis; give the direction it "
-         "moves about or along"),
-        (BODY.replace('name="j"', 'name="j" class="no"'), "", "<joint> j: no default class of that name "
-         "(got 'no'); declare it under <default>"),
-        (BODY, '<include file="no.xml"/>', "<include>: no such file (got 'no.xml'); put it there, or remove the "
-         "include"),
-        (BODY.replace('size="0.1"', 'type="mesh" mesh="k"', 1), '<asset><mesh name="k" file="k.stl"/></asset>',
-         "<geom>: its mesh is missing, and its body's mass hangs on it; put the mesh there, or give the body an "
-         "<inertial>"),
+        (
+            BODY.replace('name="j"', 'name="j" axis="0 0 0"'),
+            "",
+            "<joint> j: a zero axis; give the direction it moves about or along",
+        ),
+        (
+            BODY.replace('name="j"', 'name="j" class="no"'),
+            "",
+            "<joint> j: no default class of that name (got 'no'); declare it under <default>",
+        ),
+        (
+            BODY,
+            '<include file="no.xml"/>',
+            "<include>: no such file (got 'no.xml'); put it there, or remove the include",
+        ),
+        (
+            BODY.replace('size="0.1"', 'type="mesh" mesh="k"', 1),
+            '<asset><mesh name="k" file="k.stl"/></asset>',
+            "<geom>: its mesh is missing, and its body's mass hangs on it; put the mesh there, or "
+            "give the body an "
+            "<inertial>",
+        ),
     ],
-)  # fmt: skip
+)
 def test_files_that_cannot_be_used(tmp_path, body, more, told):
     path = tmp_path / "m.xml"
     path.write_text(ONE.format(body=body, more=more))

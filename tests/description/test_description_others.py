@@ -35,7 +35,8 @@ loops:
 actuated: [drive_bl, drive_fl, drive_br, drive_fr]
 """
 SRDF = """<robot name="bot">
-<group_state name="up" group="g"><joint name="j" value="0.5"/><joint name="base_joint" value="0 0 1 0 0 0 1"/></group_state>
+<group_state name="up" group="g"><joint name="j" value="0.5"/>
+<joint name="base_joint" value="0 0 1 0 0 0 1"/></group_state>
 <group_state name="up" group="h"><joint name="gone" value="0.1"/></group_state>
 <passive_joint name="j"/></robot>"""
 
@@ -116,21 +117,33 @@ def test_joints_of_another_type(make, tmp_path):
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("closed_loop: [[a]]\n", "robot.yaml: closed_loop[0]: is not a pair of frames (got \"['a']\"); "
-         "write [frame_a, frame_b]"),
+        (
+            "closed_loop: [[a]]\n",
+            "robot.yaml: closed_loop[0]: is not a pair of frames (got \"['a']\"); write [frame_a, frame_b]",
+        ),
         ("closed_loop: 3\n", "robot.yaml: closed_loop: not a list (got '3'); write [a, b, ...]"),
-        ("closed_loop: []\njoint_name: [j]\n", "robot.yaml: joint_type: has 0 types for 1 joints; "
-         "give one for each of joint_name"),
-        ("closed_loop: []\njoint_name: [j]\njoint_type: [SPHERICL]\n", "robot.yaml: joint_type[0]: is no type of "
-         "a joint (got 'SPHERICL'); did you mean 'SPHERICAL'?"),
-        ("closed_loop: []\njoint_name: [jj]\njoint_type: [FIXED]\n", "robot.yaml: retype.jj: no such joint; "
-         "did you mean 'j'?"),
-        ("closed_loop: []\nschema: 1\nname_mot: [j]\npassive: []\n", "robot.yaml: name_mot: says with `passive` "
-         "what is driven twice; keep one"),
-        ("closed_loop: [[arm, nope]]\n", "robot.yaml: loops.loop_1: no link or joint of this name (got 'nope'); "
-         "known: arm, base, j"),
+        (
+            "closed_loop: []\njoint_name: [j]\n",
+            "robot.yaml: joint_type: has 0 types for 1 joints; give one for each of joint_name",
+        ),
+        (
+            "closed_loop: []\njoint_name: [j]\njoint_type: [SPHERICL]\n",
+            "robot.yaml: joint_type[0]: is no type of a joint (got 'SPHERICL'); did you mean 'SPHERICAL'?",
+        ),
+        (
+            "closed_loop: []\njoint_name: [jj]\njoint_type: [FIXED]\n",
+            "robot.yaml: retype.jj: no such joint; did you mean 'j'?",
+        ),
+        (
+            "closed_loop: []\nschema: 1\nname_mot: [j]\npassive: []\n",
+            "robot.yaml: name_mot: says with `passive` what is driven twice; keep one",
+        ),
+        (
+            "closed_loop: [[arm, nope]]\n",
+            "robot.yaml: loops.loop_1: no link or joint of this name (got 'nope'); known: arm, base, j",
+        ),
     ],
-)  # fmt: skip
+)
 def test_robot_yamls_that_cannot_be_used(make, tmp_path, text, told):
     path = make.write(*make.pair())
     (tmp_path / "robot.yaml").write_text(text)
@@ -168,19 +181,37 @@ def test_an_srdf_takes_joints_from_what_the_urdf_drives(make, tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "told"),
     [
-        ('value="0.5"', 'value="half"', "bot.srdf: group_state up, joint j: its value is not a finite number "
-         "(got 'half'); give rad or m"),
-        ('value="0.5"', 'value="nan"', "bot.srdf: group_state up, joint j: its value is not a finite number "
-         "(got 'nan'); give rad or m"),
-        ('name="gone" value="0.1"', 'name="j" value="0.1"', "bot.srdf: group_state up, joint j: two values in one "
-         "posture, 0.5 and 0.1; rename one of the states"),
-        ('<group_state name="up" group="g">', '<group_state group="g">', "bot.srdf: a group_state: no name; name it"),
+        (
+            'value="0.5"',
+            'value="half"',
+            "bot.srdf: group_state up, joint j: its value is not a finite number (got 'half'); give rad or m",
+        ),
+        (
+            'value="0.5"',
+            'value="nan"',
+            "bot.srdf: group_state up, joint j: its value is not a finite number (got 'nan'); give rad or m",
+        ),
+        (
+            'name="gone" value="0.1"',
+            'name="j" value="0.1"',
+            "bot.srdf: group_state up, joint j: two values in one "
+            "posture, 0.5 and 0.1; rename one of the states",
+        ),
+        (
+            '<group_state name="up" group="g">',
+            '<group_state group="g">',
+            "bot.srdf: a group_state: no name; name it",
+        ),
         ("</robot>", "", "bot.srdf: not XML: "),
         ("<passive_joint", '<link name="l"/><passive_joint', "bot.srdf: not an SRDF: it is a URDF; "),
-        ('value="0.5"', 'value="1.5"', "rover.yaml: postures.up.j: posture outside limits: Joint j: "
-         "-1 <= 1.5 <= 1; stay within the limits"),
+        (
+            'value="0.5"',
+            'value="1.5"',
+            "rover.yaml: postures.up.j: posture outside limits: Joint j: "
+            "-1 <= 1.5 <= 1; stay within the limits",
+        ),
     ],
-)  # fmt: skip
+)
 def test_srdfs_that_cannot_be_used(make, tmp_path, old, new, told):
     (tmp_path / "bot.srdf").write_text(SRDF.replace(old, new, 1))
     assert make.refused(*make.pair(), sidecar="srdf: bot.srdf").startswith(told)
@@ -217,7 +248,8 @@ def test_packages_of_the_environment(tmp_path, monkeypatch):
     assert Packages(near, {"one_pkg": given}).find("one_pkg") == given
     assert packages.find("three_pkg") is None
     assert packages.advice("package://three_pkg/m.stl") == (
-        f"tried the map (empty), ROS_PACKAGE_PATH (/nowhere:{tmp_path}/ws), AMENT_PREFIX_PATH ({tmp_path}/prefix), "
+        f"tried the map (empty), ROS_PACKAGE_PATH (/nowhere:{tmp_path}/ws), AMENT_PREFIX_PATH "
+        f"({tmp_path}/prefix), "
         f"three_pkg among and beside the folders above {near}, an installed ROS; "
         "give its folder: --package three_pkg=DIR"
     )

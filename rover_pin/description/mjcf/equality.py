@@ -55,7 +55,9 @@ def _loop(source: Source, element: Element, name: str) -> Entry:
             "frames": [_frame(first, pin.SE3(turn, np.array(relative[:3]))), second],
             "type": kind,
         }
-    anchor = source.numbers(element, "anchor", None, 3) if kind == "ball" else [0.0, 0.0, 0.0]
+    if kind == "weld":  # measured at the second body's origin, as MuJoCo does
+        return {"name": name, "frames": [second, first], "type": kind, "at": "zero"}
+    anchor = source.numbers(element, "anchor", None, 3 if source.get(element, "anchor") else None)
     if not anchor:
         raise source.error("no anchor", element, cure="give the point in body1's frame")
     place = pin.SE3(np.eye(3), np.array(anchor))

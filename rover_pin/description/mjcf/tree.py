@@ -83,7 +83,7 @@ def _kind(source: Source, joint: Element) -> str:
 
 
 def _add_body(source: Source, robot: Any, body: Element, above: str, notes: Notes) -> None:
-    """A body below link `above`, one link a joint; the last is the body's own where it stands at the joint."""
+    """A body below link `above`, one link a joint; the last is the body's own if it stands at the joint."""
     from lxml import etree
 
     name, placed = body_name(source, body), source.placed(body)
