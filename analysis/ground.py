@@ -63,12 +63,14 @@ class Rough(Ground):
 
 
 class MapFile(Ground):
-    """`{file, spacing, origin, interpolation}`: a height map read from a file, lengths in m."""
+    """`{file, spacing, origin, interpolation, height_scale, height_offset}`: a height map, lengths in m."""
 
     file: str
     spacing: float | None = Field(default=None, gt=0)
     origin: tuple[float, float] | None = None
     interpolation: Interpolation = "smooth"
+    height_scale: float | None = None
+    height_offset: float | None = None
 
     def build(self, folder: Path) -> Terrain:
         """Through `Terrain.from_file`."""

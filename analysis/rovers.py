@@ -64,8 +64,9 @@ def loaded(rover: Rover, spec: StudySpec) -> Rover:
 def _absolute(text: str, folder: Path) -> str:
     """A robot's name as it is where it is bundled, else the absolute path where something lies there."""
     from rover_pin.description.catalogue import robots
+    from rover_pin.description.examples import PREFIX
 
-    if any(entry.name == text for entry in robots()):
+    if text.startswith(PREFIX) or any(entry.name == text for entry in robots()):
         return text
     path = folder / Path(text).expanduser()
     return str(path.resolve()) if path.exists() else text

@@ -9,13 +9,16 @@ from pathlib import Path
 
 import numpy as np
 
-from rover_pin.description import catalogue
+from rover_pin.description import catalogue, examples
 from rover_pin.description.actuation import actuated_joints
 from rover_pin.description.couplings import gather_couplings
-from rover_pin.description.expand import expand
+from rover_pin.description.expand import expand, refuse_undeclared
 from rover_pin.description.geometry import read_geometry
+from rover_pin.description.gepetto import stands_in
+from rover_pin.description.mjcf import Converted, convert, is_mjcf
 from rover_pin.description.model import BASE_DOF, build_model, joint_names, set_limits
 from rover_pin.description.notes import Notes
+from rover_pin.description.others import Kind, Other
 from rover_pin.description.packages import Packages
 from rover_pin.description.parameters import parameter_values
 from rover_pin.description.prepare import prepare
@@ -38,8 +41,10 @@ def load(
     """A rover from a bundled name, or from a URDF or xacro file.
 
     Args:
-        name_or_path: `rocker_bogie`, or a path. Xacro evaluates expressions: load only files you trust.
-        sidecar: its file; where silent, `rover.yaml` beside the description, else all is guessed and noted.
+        name_or_path: `rocker_bogie`, `example:anymal_b`, or a path. Xacro evaluates expressions: load only
+            files you trust.
+        sidecar: its file, or an SRDF; where silent, `rover.yaml` beside the description, else Gepetto's
+            `robot.yaml` there, else only what the URDF says.
         packages: ROS package -> folder, for `package://` and `$(find ...)`.
         skip_missing_includes: leave out xacro includes that are not there.
         **parameters: numbers for parameters that the sidecar declares.
@@ -48,7 +53,7 @@ def load(
         InputError: anything that cannot be used, with file, element, value and cure.
     """
     bundled, path = catalogue.locate(name_or_path)
-    sidecar_path = _sidecar_of(path, sidecar)
+    sidecar_path = _sidecar_of(bundled, path, sidecar)
     return _from_files(
         bundled,
         path,
@@ -57,6 +62,15 @@ def load(
         skip_missing_includes,
         parameters,
     )
+
+
+def load_bare(path: Path, packages: Mapping[str, str], skip_missing_includes: bool = False) -> Rover:
+    """What a URDF or xacro file says by itself, whatever lies beside it.
+
+    Raises:
+        InputError: as `load`.
+    """
+    return _from_files(None, path, None, packages, skip_missing_includes, {})
 
 
 def reload(recipe: Recipe, parameters: Mapping[str, float]) -> Rover:
@@ -76,11 +90,16 @@ def reload(recipe: Recipe, parameters: Mapping[str, float]) -> Rover:
     return rover.with_payload(recipe.payload) if recipe.payload else rover
 
 
-def _sidecar_of(path: Path, given: str | Path | None) -> Path | None:
+def _sidecar_of(bundled: str | None, path: Path, given: str | Path | None) -> Path | None:
     if given is not None:
         return Path(given).expanduser()
+    if bundled is not None and bundled.startswith(examples.PREFIX):
+        return examples.sidecar_of(bundled)
     beside = path.parent / catalogue.SIDECAR
-    return beside if beside.is_file() else None
+    if beside.is_file():
+        return beside
+    theirs = path.parent / catalogue.GEPETTO
+    return theirs if theirs.is_file() and stands_in(theirs) else None
 
 
 def _from_files(
@@ -91,16 +110,33 @@ def _from_files(
     skip: bool,
     parameters: Mapping[str, float],
 ) -> Rover:
-    spec, sidecar_text = (Sidecar(), None) if sidecar_path is None else load_sidecar(sidecar_path)
+    found, notes = Packages(path, packages), Notes()
+    mjcf = _converted(path, notes)
+    extra: dict[Kind, Other] | None = (
+        None if mjcf is None else {"mjcf": Other(file=str(path), text=mjcf.sidecar)}
+    )
+    spec, sidecar_text = load_sidecar(sidecar_path, found, extra)
     values = parameter_values(spec.parameters, parameters)
     used: set[str] = set()
     if sidecar_text is not None:
         used.update(*(formula.names for formula in formulas_of(sidecar_text, sidecar_path).values()))
-    notes = Notes()
-    text = expand(path, values, Packages(path, packages), notes, skip, sidecar_path, used)
+    if mjcf is None:
+        text = expand(path, values, found, notes, skip, sidecar_path, used)
+    else:
+        refuse_undeclared(path, values, sidecar_path, used)
+        text = mjcf.urdf
     return assemble(
         Recipe(bundled, path, text, sidecar_path, sidecar_text, values, packages, skip, notes=notes.lines())
     )
+
+
+def _converted(path: Path, notes: Notes) -> Converted | None:
+    """An MJCF file in our terms; None where the file is something else, or nothing to read."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        return None
+    return convert(text, path, notes) if is_mjcf(text) else None
 
 
 def assemble(recipe: Recipe) -> Rover:
@@ -112,7 +148,7 @@ def assemble(recipe: Recipe) -> Rover:
     file, text = recipe.sidecar_path, recipe.sidecar_text
     sidecar = Sidecar() if text is None else read_sidecar(text, file, recipe.parameters)
     notes = Notes(recipe.notes)
-    if text is None:
+    if file is None:
         notes.add("no sidecar: suspension, wheels and actuation are only what the URDF says")
     made = prepare(recipe, sidecar, notes)
     name = recipe.name or made.tree.name or recipe.source.stem
@@ -123,9 +159,12 @@ def assemble(recipe: Recipe) -> Rover:
     placer = Placer(model, made.turning_axes(), file, notes)
     touching = placer.place(sidecar, made)
     driven = [w.drive for w in touching.wheels if w.drive is not None and w.drive in made.continuous]
-    actuated = actuated_joints(made.tree, joints, sidecar.actuated, sidecar.passive, driven, notes, file)
+    idle = sidecar.states.passive
+    actuated = actuated_joints(
+        made.tree, joints, sidecar.actuated, sidecar.passive, driven, notes, file, idle
+    )
     couplings = gather_couplings(made.mimics, sidecar.couplings, made.held, notes, file)
-    find_mesh = Packages(recipe.source, recipe.packages).resolve
+    meshes = Packages(recipe.source, recipe.packages)
     rover = Rover(
         name=name,
         urdf=made.urdf,
@@ -142,11 +181,11 @@ def assemble(recipe: Recipe) -> Rover:
         wheels=touching.wheels,
         feet=touching.feet,
         belly=touching.belly,
-        postures=checked_postures(sidecar, columns, made.held, limits, file),
+        postures=checked_postures(sidecar, columns, made.held, limits, notes, file),
         recipe=dataclasses.replace(recipe, payload=()),
         loading_notes=notes.lines(),
         read_geometry=functools.cache(
-            lambda: read_geometry(made.tree, model, find_mesh, touching.wheel_links)
+            lambda: read_geometry(made.tree, model, meshes.resolve, touching.wheel_links, meshes.advice)
         ),
     )
     rover = _with_tracks(rover, sidecar)

@@ -6,6 +6,7 @@ import typer
 
 from rover_pin.cli.bench import bench
 from rover_pin.cli.info import info
+from rover_pin.cli.init import init
 from rover_pin.cli.mobility import mobility
 from rover_pin.cli.reproduce import reproduce
 from rover_pin.cli.robots import robots
@@ -22,5 +23,5 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
-for command in (robots, info, settle, study, search, view, mobility, slopes, reproduce, bench):
+for command in (robots, info, settle, study, search, view, init, mobility, slopes, reproduce, bench):
     app.command()(command)

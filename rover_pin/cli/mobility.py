@@ -8,7 +8,16 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from rover_pin.cli.options import Json, Packages, Parameters, Sidecar, SkipIncludes, load_rover
+from rover_pin.cli.options import (
+    HeightOffset,
+    HeightScale,
+    Json,
+    Packages,
+    Parameters,
+    Sidecar,
+    SkipIncludes,
+    load_rover,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -33,6 +42,8 @@ def mobility(
     posture: Annotated[str | None, typer.Option(help="Posture.", metavar="NAME|clearance=M")] = None,
     spacing: Annotated[float | None, typer.Option(help="Of the map's nodes, m.", metavar="M")] = None,
     interpolation: Annotated[str, typer.Option(help="Of the map: smooth or linear.")] = "smooth",
+    height_scale: HeightScale = None,
+    height_offset: HeightOffset = 0.0,
     headings: Annotated[int, typer.Option(help="How many, evenly over the circle.", metavar="N")] = 16,
     measure: Annotated[str, typer.Option(help="Of each stance: tip, clearance, loads, ...")] = "tip",
     every: Annotated[int, typer.Option(help="Take every N-th node along x and y.", metavar="N")] = 1,
@@ -63,7 +74,7 @@ def mobility(
     path = out or Path(f"{_stem(map_file)}mobility.nc")
     check_outputs(path, tiff, png)
     pull = parse_gravity(gravity)
-    ground = Terrain.parse(map_file, spacing=spacing, interpolation=interpolation)
+    ground = Terrain.parse(map_file, spacing, interpolation, height_scale, height_offset)
     rover = load_rover(robot, sidecar, package, skip_missing_includes, param)
     announce_compilation(batch=True)
     started = time.perf_counter()

@@ -30,6 +30,10 @@ SkipIncludes = Annotated[
 Parameters = Annotated[
     list[str] | None, typer.Option("--param", help="Value of a declared parameter.", metavar="NAME=VALUE")
 ]
+HeightScale = Annotated[
+    float | None, typer.Option(help="Metres a grey level of a PNG, or a unit of another map.", metavar="M")
+]
+HeightOffset = Annotated[float, typer.Option(help="Height where the map holds 0, m.", metavar="M")]
 Json = Annotated[bool, typer.Option("--json", help="One JSON object instead of a table.")]
 
 

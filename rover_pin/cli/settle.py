@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rover_pin.cli.options import (
+    HeightOffset,
+    HeightScale,
     Json,
     Packages,
     Parameters,
@@ -36,6 +38,8 @@ def settle(
     ] = "flat",
     spacing: Annotated[float | None, typer.Option(help="Of the map's nodes, m.")] = None,
     interpolation: Annotated[str, typer.Option(help="Of the map: smooth or linear.")] = "smooth",
+    height_scale: HeightScale = None,
+    height_offset: HeightOffset = 0.0,
     at: Annotated[str, typer.Option(help="Place and heading.", metavar="X,Y,YAW_DEG")] = "0,0,0",
     posture: Annotated[str | None, typer.Option(help="Posture.", metavar="NAME|clearance=M")] = None,
     joint: Annotated[
@@ -70,7 +74,7 @@ def settle(
         find_browser()
     x, y, yaw = place(at)
     mu = coefficient(friction)
-    ground = Terrain.parse(terrain, spacing=spacing, interpolation=interpolation)
+    ground = Terrain.parse(terrain, spacing, interpolation, height_scale, height_offset)
     rover = loaded(load_rover(robot, sidecar, package, skip_missing_includes, param), payload)
     announce_compilation()
     stance = stand(

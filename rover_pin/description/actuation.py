@@ -17,6 +17,7 @@ def actuated_joints(
     above_wheels: Sequence[str],
     notes: Notes,
     file: object,
+    idle: Sequence[str] = (),
 ) -> tuple[str, ...]:
     """The driven joints, in the order of `joints`.
 
@@ -28,6 +29,7 @@ def actuated_joints(
         above_wheels: continuous joints directly above a declared wheel.
         notes: told of what was dropped or guessed.
         file: the sidecar, named in errors.
+        idle: joints that an SRDF calls passive; where the URDF does not say what is driven, all others are.
 
     Raises:
         SidecarError: both lists, or a name that is no moving joint.
@@ -51,7 +53,9 @@ def actuated_joints(
                 f"{source} drives {{name}}, which does not move: dropped",
                 f"{source} drives {{n}} joints that do not move: dropped ({{names}})",
             )
-            return _ordered(joints, set(found))
+            return _ordered(joints, set(found) - set(idle))
+    if idle:
+        return _ordered(joints, set(joints) - set(idle))
     if above_wheels:
         notes.add(f"nothing says what is driven: taken the wheels' own joints ({', '.join(above_wheels)})")
     elif joints:

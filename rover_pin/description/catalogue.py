@@ -6,9 +6,11 @@ from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
 
+from rover_pin.description import examples
 from rover_pin.errors import DescriptionError, nearest
 
 SIDECAR = "rover.yaml"
+GEPETTO = "robot.yaml"
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,7 @@ def robots() -> tuple[Entry, ...]:
 def locate(name_or_path: str | Path) -> tuple[str | None, Path]:
     """The bundled name, if it is one, and the file to read.
 
+    `example:NAME` is a robot of the package example-robot-data.
     A word without a separator or suffix is a bundled robot first and a path second; a folder stands for the
     description of the folder's own name inside it.
 
@@ -49,6 +52,8 @@ def locate(name_or_path: str | Path) -> tuple[str | None, Path]:
         DescriptionError: neither a bundled robot nor a file.
     """
     text = str(name_or_path)
+    if text.startswith(examples.PREFIX):
+        return text, examples.description_of(text)
     known = {entry.name: entry.path for entry in robots()}
     if isinstance(name_or_path, str) and text in known:
         return text, known[text]

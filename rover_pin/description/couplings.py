@@ -25,7 +25,7 @@ def gather_couplings(
             contradict each other on the way round.
     """
     found: list[CouplingSpec] = []
-    for spec in [*map(_as_coupling, mimics), *stated]:
+    for spec in [*map(as_coupling, mimics), *stated]:
         free = _without_held(spec, held, file)
         if free is None:
             notes.add(f"coupling {spec.name}: all its joints are held by their limits; dropped")
@@ -47,7 +47,8 @@ def gather_couplings(
     return found
 
 
-def _as_coupling(mimic: Mimic) -> CouplingSpec:
+def as_coupling(mimic: Mimic) -> CouplingSpec:
+    """A mimic as the coupling it is."""
     joints = (
         {mimic.joint: 1.0} if mimic.multiplier == 0.0 else {mimic.joint: 1.0, mimic.of: -mimic.multiplier}
     )

@@ -108,7 +108,7 @@ def run_xacro(
     except DescriptionError:
         raise
     except Exception as error:  # xacro raises whatever an expression of the file raises
-        raise DescriptionError(f"xacro: {error}", file=path, cure=_cure(str(error))) from error
+        raise DescriptionError(f"xacro: {error}", file=path, cure=_cure(str(error), packages)) from error
     for line in said.getvalue().splitlines():
         if line.strip():
             notes.add(f"xacro: {line.strip()}")
@@ -120,11 +120,12 @@ def written(value: float) -> str:
     return str(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)
 
 
-def _cure(message: str) -> str:
+def _cure(message: str, packages: Packages) -> str:
     missing = re.search(r"package://([^/\s]+)", message)
     if missing:
         name = missing.group(1)
         return (
+            f"tried {', '.join(packages.tried(name))}; "
             f"give its folder: packages={{'{name}': ...}} or --package {name}=..., or skip missing includes"
         )
     if "No such file" in message:
@@ -166,6 +167,17 @@ def _around_xacro(packages: Packages, notes: Notes, skip: bool) -> Iterator[None
         yield
     finally:
         substitution_args._eval_find, xacro.process_include = usual_find, usual_include
+
+
+def refuse_undeclared(
+    path: Path, values: Mapping[str, float], declared_in: object, used: Collection[str]
+) -> None:
+    """Nothing where a formula uses every parameter of a file without arguments.
+
+    Raises:
+        SidecarError: one is used by none.
+    """
+    _refuse_undeclared(path, values, None, declared_in, used)
 
 
 def _refuse_undeclared(

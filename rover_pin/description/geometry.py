@@ -80,7 +80,9 @@ class Geometry:
 
 
 @dataclass(frozen=True)
-class _Shape:
+class LinkShape:
+    """A shape as a URDF states it; `address` is a mesh's, else empty; the rest as in `Visual`."""
+
     link: str
     joint: int
     placement: Array
@@ -91,7 +93,11 @@ class _Shape:
 
 
 def read_geometry(
-    tree: Tree, model: pin.Model, resolve: Callable[[str], Path | None], without_hull: Collection[str]
+    tree: Tree,
+    model: pin.Model,
+    resolve: Callable[[str], Path | None],
+    without_hull: Collection[str],
+    advice: Callable[[str], str] | None = None,
 ) -> Geometry:
     """Visual and collision shapes of a URDF; meshes are found but not opened.
 
@@ -100,6 +106,7 @@ def read_geometry(
         model: its Pinocchio model, for the links' places.
         resolve: address of a mesh -> its file, or None.
         without_hull: links whose collision shapes do not count: the wheels.
+        advice: address of a mesh in a package -> where it was looked for, and the cure.
     """
     notes = Notes()
     robot = _structure(tree, notes)
@@ -114,6 +121,10 @@ def read_geometry(
             Visual(shape.link, shape.joint, shape.placement, shape.kind, shape.size, mesh, shape.rgba)
         )
     notes.many(missing, "mesh {name} is missing: not drawn", "{n} meshes are missing: not drawn ({names})")
+    if advice is not None:
+        packages = {address.split("/")[2]: address for address in missing if address.startswith("package://")}
+        for name, address in packages.items():
+            notes.add(f"package {name}: {advice(address)}")
     points: list[BodyPoint] = []
     corners: list[BodyPoint] = []
     meshed = []
@@ -133,6 +144,12 @@ def read_geometry(
         "use boxes, cylinders, spheres or `belly`",
     )
     return Geometry(tuple(visuals), tuple(points), tuple(corners), notes.lines())
+
+
+def shapes_of(tree: Tree, model: pin.Model) -> tuple[LinkShape, ...]:
+    """Collision shapes, then visual ones."""
+    links = _structure(tree, Notes()).links
+    return tuple(shape for key in ("collisions", "visuals") for shape in _shapes(links, key, model, {}))
 
 
 def _structure(tree: Tree, notes: Notes) -> Any:
@@ -157,13 +174,13 @@ def _structure(tree: Tree, notes: Notes) -> Any:
     ).robot
 
 
-def _shapes(links: Iterable[Any], key: str, model: pin.Model, colours: dict[str, Any]) -> Iterator[_Shape]:
+def _shapes(links: Iterable[Any], key: str, model: pin.Model, colours: dict[str, Any]) -> Iterator[LinkShape]:
     for link in links:
         frame = model.frames[model.getFrameId(link.name, pin.FrameType.BODY)]
         for element in getattr(link, key):
             kind, size, address = _measure(element.geometry)
             origin = np.eye(4) if element.origin is None else element.origin
-            yield _Shape(
+            yield LinkShape(
                 link.name,
                 int(frame.parentJoint),
                 frozen(frame.placement.homogeneous @ origin),
@@ -194,14 +211,14 @@ def _colour(material: Any, colours: dict[str, Any]) -> tuple[float, float, float
     return r, g, b, a
 
 
-def _hull_points(shape: _Shape) -> list[BodyPoint]:
+def _hull_points(shape: LinkShape) -> list[BodyPoint]:
     """Points of a shape no further apart than `SPACING`; a ball as such."""
     if shape.kind == "sphere":
         return _placed(shape, np.zeros((1, 3)), shape.size[0])
     return _placed(shape, _box(shape.size) if shape.kind == "box" else _cylinder(shape.size))
 
 
-def _placed(shape: _Shape, local: Array, radius: float = 0.0) -> list[BodyPoint]:
+def _placed(shape: LinkShape, local: Array, radius: float = 0.0) -> list[BodyPoint]:
     turned = local @ shape.placement[:3, :3].T + shape.placement[:3, 3]
     return [BodyPoint(shape.link, shape.joint, frozen(p), radius) for p in turned]
 

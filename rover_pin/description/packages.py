@@ -1,21 +1,25 @@
-"""Where ROS packages lie, without ROS: a given map, then the folders around the file."""
+"""Where ROS packages lie, without ROS: a given map, the environment, then the folders around the file."""
 
 from __future__ import annotations
 
+import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from rover_pin.errors import InputError
 
 _NAME = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
+_DEEP = 3  # folders below an entry of ROS_PACKAGE_PATH that are looked into
+_MOST = 4  # places that a message lists
 
 
 class Packages:
     """Finds the folder of a ROS package.
 
     In this order: the map the user gave; a folder above the file that bears the package's name or whose
-    `package.xml` does; a folder of that name beside one of those; an installed ROS, where there is one.
+    `package.xml` does; ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; a folder of that name beside one of those
+    above the file; an installed ROS, where there is one.
 
     Args:
         near: the file that speaks of packages.
@@ -36,32 +40,83 @@ class Packages:
                     value=str(folder),
                     cure="give the package's folder",
                 )
-        self._found: dict[str, Path | None] = {}
+        self._found: dict[str, tuple[Path, ...]] = {}
 
     def find(self, name: str) -> Path | None:
         """The folder of package `name`, or None."""
+        return next(iter(self._all(name)), None)
+
+    def _all(self, name: str) -> tuple[Path, ...]:
+        """Every folder that may be the package's, the likeliest first."""
         if name not in self._found:
-            self._found[name] = self.given.get(name) or self._above(name) or _installed(name)
+            self._found[name] = tuple(dict.fromkeys(self._candidates(name)))
         return self._found[name]
 
-    def _above(self, name: str) -> Path | None:
+    def _candidates(self, name: str) -> Iterator[Path]:
+        if name in self.given:
+            yield self.given[name]
+            return
+        yield from (f for f in self.near.parents if f.name == name or _declares(f, name))
+        yield from _of_environment(name)
         for folder in self.near.parents:
-            if folder.name == name or _declares(folder, name):
-                return folder
             beside = folder / name
             if (beside / "package.xml").is_file() or (beside.is_dir() and len(folder.parts) > 2):
-                return beside
-        return None
+                yield beside
+        installed = _installed(name)
+        if installed is not None:
+            yield installed
 
     def resolve(self, address: str) -> Path | None:
         """The file behind `package://p/x`, `file://x` or a path relative to the description, or None."""
         if address.startswith("package://"):
-            name, _, rest = address.removeprefix("package://").lstrip("/").partition("/")
-            folder = self.find(name)
-            path = None if folder is None else folder / rest
+            name, rest = _split(address)
+            paths = [folder / rest for folder in self._all(name)]
         else:
-            path = self.near.parent / address.removeprefix("file://")
-        return path.resolve() if path is not None and path.is_file() else None
+            paths = [self.near.parent / address.removeprefix("file://")]
+        return next((path.resolve() for path in paths if path.is_file()), None)
+
+    def advice(self, address: str) -> str:
+        """Where a file of a package was looked for, and the cure."""
+        name, rest = _split(address)
+        folders = self._all(name)
+        if folders:
+            places = ", ".join(str(folder) for folder in folders[:_MOST])
+            return f"tried {rest or 'it'} in {places}; give the folder that has it: --package {name}=DIR"
+        return f"tried {', '.join(self.tried(name))}; give its folder: --package {name}=DIR"
+
+    def tried(self, name: str) -> tuple[str, ...]:
+        """Where a package was looked for that was not found."""
+        given = ", ".join(self.given) or "empty"
+        entries = {key: _entries(key) for key in ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH")}
+        return (
+            f"the map ({given})",
+            *(f"{key} ({os.pathsep.join(map(str, each)) or 'not set'})" for key, each in entries.items()),
+            f"{name} among and beside the folders above {self.near}",
+            "an installed ROS",
+        )
+
+
+def _split(address: str) -> tuple[str, str]:
+    name, _, rest = address.removeprefix("package://").lstrip("/").partition("/")
+    return name, rest
+
+
+def _entries(key: str) -> list[Path]:
+    return [Path(each) for each in os.environ.get(key, "").split(os.pathsep) if each]
+
+
+def _of_environment(name: str) -> Iterator[Path]:
+    """A package below ROS_PACKAGE_PATH (itself, or down to three folders), or installed in a prefix."""
+    for entry in _entries("ROS_PACKAGE_PATH"):
+        for depth in range(_DEEP + 1):
+            for manifest in sorted(entry.glob("/".join(["*"] * depth + ["package.xml"]))):
+                if manifest.parent.name == name or _declares(manifest.parent, name):
+                    yield manifest.parent
+        if (entry / name).is_dir():
+            yield entry / name
+    for prefix in _entries("AMENT_PREFIX_PATH"):
+        if (prefix / "share" / name).is_dir():
+            yield prefix / "share" / name
 
 
 def _declares(folder: Path, name: str) -> bool:

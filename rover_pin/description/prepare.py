@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rover_pin.description import checks, rewrite, suspects
+from rover_pin.description import checks, retype, rewrite, suspects
 from rover_pin.description.limits import Limits
 from rover_pin.description.mimic import Mimic, read_mimics
 from rover_pin.description.notes import Notes
@@ -58,6 +58,7 @@ def prepare(recipe: Recipe, sidecar: Sidecar, notes: Notes) -> Prepared:
     file = recipe.sidecar_path
     tree = parse(recipe.text, str(recipe.source))
     checks.check(tree)
+    retype.refuse_unknown(tree, sidecar.retype, file)
     rewrite.free_joints(tree, sidecar.free, file)
     rewrite.override_inertials(tree, sidecar.inertials, file)
     rewrite.drop_floating_root(tree, notes)
@@ -66,6 +67,7 @@ def prepare(recipe: Recipe, sidecar: Sidecar, notes: Notes) -> Prepared:
     suspects.tell_gazebo_loops(tree, notes)
     suspects.tell_dynamics(tree, notes)
     continuous = suspects.continuous_joints(tree)
+    retype.retype_joints(tree, sidecar.retype)
     mimics = read_mimics(tree, notes)
     limits, held = rewrite.settle_joints(tree, notes)
     root = tree.root

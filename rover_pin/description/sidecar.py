@@ -10,8 +10,12 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, FiniteFloat, Tag
 
 from rover_pin.description.formulas import Formula, Path, fill_in, formula_of, formulas_in
+from rover_pin.description.gepetto import KEYS, is_gepetto, translated
+from rover_pin.description.others import NAMED, Kind, Other, found_by, read_other, with_others
+from rover_pin.description.packages import Packages
 from rover_pin.description.parameters import ParameterSpec
 from rover_pin.description.reading import check_schema, dotted, parse_yaml, place, read_text, validated
+from rover_pin.description.retype import Retype
 from rover_pin.description.specs import (
     BellySpec,
     Direction,
@@ -20,11 +24,11 @@ from rover_pin.description.specs import (
     InertialSpec,
     WheelSpec,
 )
+from rover_pin.description.srdf import Srdf, read_srdf
 from rover_pin.errors import SidecarError
 from rover_pin.mechanism import CouplingSpec, FrameSpringSpec, JointSpringSpec, LoopSpec, TrackSpec
 
 SCHEMA: Literal[1] = 1
-_GEPETTO = ("closed_loop", "type", "name_mot")
 
 
 def _spring_kind(value: Any) -> str:
@@ -59,6 +63,16 @@ class Sidecar(BaseModel):
     postures: dict[str, dict[str, FiniteFloat]] = {}
     parameters: dict[str, ParameterSpec] = {}
     tracks: tuple[TrackSpec, ...] = ()
+    retype: dict[str, Retype] = {}
+    srdf: str | None = None
+    robot_yaml: str | None = None
+    embedded: dict[Kind, Other] = {}
+
+    @property
+    def states(self) -> Srdf:
+        """What the SRDF says that it names."""
+        other = self.embedded.get("srdf")
+        return Srdf({}, (), ()) if other is None else read_srdf(other.text, other.file)
 
 
 def read_sidecar(text: str, file: object, values: Mapping[str, float] | None = None) -> Sidecar:
@@ -79,10 +93,9 @@ def read_sidecar(text: str, file: object, values: Mapping[str, float] | None = N
 @functools.lru_cache(maxsize=64)
 def _read(text: str, file: object, values: tuple[tuple[str, float], ...] | None) -> Sidecar:
     data, node = parse_yaml(text, file)
-    if any(key in data for key in _GEPETTO) and "schema" not in data:
-        data = _from_gepetto(data, file)
+    data = _with_gepetto(data, file)
     check_schema(data, SCHEMA, file)
-    present = {key: value for key, value in data.items() if value is not None}
+    present = _with_embedded({key: value for key, value in data.items() if value is not None})
     if any(formulas_in(present)):
         declared = validated(_Declared, {"parameters": present.get("parameters", {})}, node, file).parameters
         defaults = {name: float(spec.default) for name, spec in declared.items()}
@@ -92,6 +105,43 @@ def _read(text: str, file: object, values: tuple[tuple[str, float], ...] | None)
     for key in ("loops", "couplings", "springs", "tracks"):
         _once([spec.name for spec in getattr(sidecar, key)], key, file)
     return sidecar
+
+
+def _with_gepetto(data: dict[str, Any], file: object) -> dict[str, Any]:
+    """Gepetto's keys in our words; where they stand alone, the schema is ours."""
+    if not is_gepetto(data):
+        return data
+    if "schema" not in data:
+        others = [key for key in data if key not in KEYS]
+        if others:
+            raise SidecarError(
+                f"unknown key beside {', '.join(KEYS)}",
+                file=file,
+                element=others[0],
+                cure=f"add `schema: {SCHEMA}` to use the keys of a rover.yaml with them",
+            )
+        data = {"schema": SCHEMA, **data}
+    return translated(data, file)
+
+
+def _with_embedded(data: dict[str, Any]) -> dict[str, Any]:
+    """What the named files say, below what the sidecar says itself."""
+    others = data.get("embedded", {})
+    if "robot_yaml" in others:
+        text, other = others["robot_yaml"]["text"], others["robot_yaml"]["file"]
+        theirs = _with_gepetto(parse_yaml(text, other)[0], other)
+        data["loops"] = [*data.get("loops", ()), *theirs.get("loops", ())]
+        data["retype"] = {**theirs.get("retype", {}), **data.get("retype", {})}
+        if "actuated" in theirs and "passive" not in data:
+            data.setdefault("actuated", theirs["actuated"])
+    if "mjcf" in others:
+        theirs = parse_yaml(others["mjcf"]["text"], others["mjcf"]["file"])[0]
+        for key in ("loops", "couplings", "springs"):
+            data[key] = [*data.get(key, ()), *theirs.get(key, ())]
+    if "srdf" in others:
+        found = read_srdf(others["srdf"]["text"], others["srdf"]["file"])
+        data["postures"] = {**found.postures, **data.get("postures", {})}
+    return data
 
 
 class _Declared(BaseModel):
@@ -105,13 +155,36 @@ def formulas_of(text: str, file: object) -> Mapping[Path, Formula]:
     return {path: formula_of(formula) for path, formula in formulas_in(data)}
 
 
-def load_sidecar(path: File) -> tuple[Sidecar, str]:
-    """A sidecar from its file, and the text.
+def load_sidecar(
+    path: File | None, packages: Packages, extra: Mapping[Kind, Other] | None = None
+) -> tuple[Sidecar, str | None]:
+    """A sidecar from its file, and the text; an SRDF alone is one that names it.
+
+    Args:
+        path: the file, or None where there is none.
+        packages: where `package://` looks.
+        extra: what else is said beside the URDF.
 
     Raises:
-        SidecarError: as `read_sidecar`, or the file cannot be read.
+        SidecarError: as `read_sidecar`, or a file cannot be read.
+        DescriptionError: an SRDF that cannot be used.
     """
-    text = read_text(path, "give the path of a rover.yaml")
+    others: dict[Kind, Other] = dict(extra or {})
+    if path is None and not others:
+        return Sidecar(), None
+    text = f"schema: {SCHEMA}"
+    if path is not None and path.suffix == ".srdf":
+        others["srdf"] = read_other(path)
+    elif path is not None:
+        text = read_text(path, "give the path of a rover.yaml")
+        sidecar = read_sidecar(text, path)
+        named = {kind: getattr(sidecar, kind) for kind in NAMED}
+        others |= {kind: found_by(name, kind, path, packages) for kind, name in named.items() if name}
+        if not others:
+            return sidecar, text
+        if "schema" not in parse_yaml(text, path)[0]:
+            text = f"{text.rstrip()}\nschema: {SCHEMA}"
+    text = with_others(text, others)
     return read_sidecar(text, path), text
 
 
@@ -127,31 +200,3 @@ def _once(names: Sequence[str], key: str, file: object) -> None:
                 cure="rename one of them",
             )
         seen.add(name)
-
-
-def _from_gepetto(data: dict[str, Any], file: object) -> dict[str, Any]:
-    """`closed_loop: [[a, b]]` with `type: [6d | 3d]`: welds and balls; `name_mot`: the driven joints."""
-    others = [key for key in data if key not in _GEPETTO]
-    if others:
-        raise SidecarError(
-            "unknown key beside closed_loop, type and name_mot",
-            file=file,
-            element=others[0],
-            cure=f"use the keys of schema {SCHEMA} throughout",
-        )
-    pairs = data.get("closed_loop") or []
-    types = data.get("type") or ["6d"] * len(pairs)
-    kinds = {"6d": "weld", "3d": "ball"}
-    if len(types) != len(pairs) or any(str(t).lower() not in kinds for t in types):
-        raise SidecarError(
-            "needs one of 6d, 3d for each closed loop",
-            file=file,
-            element="type",
-            value=str(types),
-            cure="mend it",
-        )
-    loops = [
-        {"name": f"loop_{i + 1}", "frames": pair, "type": kinds[str(kind).lower()]}
-        for i, (pair, kind) in enumerate(zip(pairs, types, strict=True))
-    ]
-    return {"schema": SCHEMA, "loops": loops, "actuated": data.get("name_mot")}

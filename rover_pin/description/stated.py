@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
+from rover_pin.description.notes import Notes
 from rover_pin.description.sidecar import Sidecar
 from rover_pin.errors import PostureError, SidecarError, nearest
 from rover_pin.mechanism import JointSpringSpec, Spring
@@ -63,19 +64,35 @@ def checked_postures(
     columns: Mapping[str, int],
     held: Mapping[str, float],
     limits: Mapping[str, Array],
+    notes: Notes,
     file: object,
 ) -> Mapping[str, Mapping[str, float]]:
     """The sidecar's postures; a joint that its limits hold may be named at its place.
+
+    Joints that only an SRDF names, and that do not move here, are dropped with a note.
 
     Raises:
         PostureError: an unknown joint, or a value outside limits.
     """
     postures: dict[str, dict[str, float]] = {}
+    theirs = sidecar.states.postures
+    notes.many(
+        sidecar.states.dropped,
+        "joint {name} of the SRDF has several values: dropped from its postures",
+        "{n} joints of the SRDF have several values: dropped from its postures ({names})",
+    )
     for posture, values in sidecar.postures.items():
         kept = postures.setdefault(posture, {})
         for name, value in values.items():
             element = f"postures.{posture}.{name}"
             if name in held and math.isclose(value, held[name], abs_tol=1e-6):
+                continue
+            if name not in columns and name in theirs.get(posture, {}):
+                notes.each(
+                    name,
+                    "joint {name} of the SRDF does not move here: dropped from its postures",
+                    "{n} joints of the SRDF do not move here: dropped from its postures ({names})",
+                )
                 continue
             if name not in columns:
                 raise PostureError(

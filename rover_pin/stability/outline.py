@@ -98,7 +98,8 @@ class Outline:
         own = (from_first >= start - 1e-12) & (from_first <= start + math.pi / 4 + 1e-12)
         own[7, 0] = True
         told = np.min(np.where(own, np.array(self.reaches), np.inf), axis=1)
-        return where[told - inner > CLOSE * self.size]
+        wanted: Array = where[told - inner > CLOSE * self.size]
+        return wanted
 
     def _open_area(self) -> Array:
         """The directions that may add most to the area; none where little is missing."""

@@ -112,6 +112,31 @@ def heights(values: Any, interpolation: str, file: object = None) -> Array:
     return result
 
 
+def height_unit(levels_of: str | None, scale: Any, offset: Any, file: object = None) -> tuple[float, float]:
+    """Metres a unit of what a file holds, and the height [m] where it holds 0.
+
+    Args:
+        levels_of: what grey levels those are, or None where they are metres.
+        scale: metres a unit, or None where nobody said.
+        offset: m.
+        file: for messages.
+
+    Raises:
+        TerrainError: grey levels without a scale, or a scale that is none.
+    """
+    if scale is None and levels_of is not None:
+        raise TerrainError(
+            "a picture does not say how high a grey level is",
+            file=file,
+            value=levels_of,
+            cure="give the metres a level: --height-scale (and --height-offset), or height_scale=",
+        )
+    factor = 1.0 if scale is None else finite("the height scale", scale, file)
+    if factor == 0.0:
+        raise TerrainError("the height scale must not be zero", file=file, value=scale)
+    return factor, finite("the height offset", offset, file)
+
+
 def require_no_gaps(gaps: np.ndarray[Any, np.dtype[np.bool_]], name: str, file: object = None) -> None:
     """Refuse a map in which `gaps` (rows, columns) marks any cell.
 

@@ -179,26 +179,44 @@ class Terrain(Ground):
         spacing: float | None = None,
         origin: Sequence[float] | None = None,
         interpolation: str = "smooth",
+        height_scale: float | None = None,
+        height_offset: float = 0.0,
     ) -> Terrain:
-        """A height map from a file: TIFF or GeoTIFF, .npy, .npz, .csv; rows along +y in the file's order.
+        """A height map from a file: TIFF or GeoTIFF, .npy, .npz, .csv, .png, .asc; rows along +y.
+
+        The order is the file's, save that of an .asc, whose last row lies south and so comes first.
 
         Args:
             path: the file.
             spacing: from node to node [m]; where None, what the file says.
             origin: (x, y) [m] of the first height; where None, what the file says, else (0, 0).
             interpolation: `smooth` or `linear`.
+            height_scale: metres a unit of what the file holds; needed for a PNG, where it is metres a grey
+                level as stored, else 1.
+            height_offset: height [m] where the file holds 0.
 
         Raises:
             TerrainError: no such file, one that cannot be read, or heights that `from_grid` refuses.
         """
         file = Path(path)
         found = read_heights(file, spacing is not None)
+        scale, offset = checks.height_unit(found.levels_of, height_scale, height_offset, file)
+        nodes = found.heights
+        if (scale, offset) != (1.0, 0.0):
+            nodes = offset + scale * checks.heights(nodes, interpolation, file)
         corner = origin if origin is not None else found.origin if found.origin is not None else (0.0, 0.0)
         pitch = found.spacing if spacing is None else spacing
-        return cls.from_grid(found.heights, pitch, corner, interpolation, label=file.name, file=file)
+        return cls.from_grid(nodes, pitch, corner, interpolation, label=file.name, file=file)
 
     @classmethod
-    def parse(cls, text: str, spacing: float | None = None, interpolation: str = "smooth") -> Terrain:
+    def parse(
+        cls,
+        text: str,
+        spacing: float | None = None,
+        interpolation: str = "smooth",
+        height_scale: float | None = None,
+        height_offset: float = 0.0,
+    ) -> Terrain:
         """The command line's terrain: `flat`, `slope:DEG`, `step:HEIGHT,X`, `rough:SEED,RMS,HURST`, a file.
 
         Raises:
@@ -206,7 +224,9 @@ class Terrain(Ground):
         """
         found = split_word(text)
         if found is None:
-            return cls.from_file(text, spacing, interpolation=interpolation)
+            return cls.from_file(text, spacing, None, interpolation, height_scale, height_offset)
+        if height_scale is not None or height_offset != 0.0:
+            raise TerrainError("only a file has a height scale", value=text, cure="leave it out")
         word, numbers = found
         pitch: dict[str, Any] = {} if spacing is None else {"spacing": spacing}
         if word == "flat":

@@ -167,7 +167,9 @@ def test_robot_yaml_of_parallel_robots_is_read():
 
 
 def test_robot_yaml_with_other_keys():
-    assert "use the keys of schema 1 throughout" in refused("closed_loop: [[a, b]]\nwheels: []\n")
+    assert "add `schema: 1` to use the keys of a rover.yaml with them" in refused(
+        "closed_loop: [[a, b]]\nwheels: []\n"
+    )
     assert "needs one of 6d, 3d for each closed loop" in refused("closed_loop: [[a, b]]\ntype: [5d]\n")
 
 

@@ -188,10 +188,11 @@ def test_other_files(tmp_path):
         Terrain.from_file(tmp_path / "nope.tif", 1.0)
     with pytest.raises(TerrainError, match="not a file"):
         Terrain.from_file(tmp_path, 1.0)
-    picture = tmp_path / "a.png"
+    picture = tmp_path / "a.jpg"
     picture.write_bytes(b"x")
     with pytest.raises(
-        TerrainError, match=r"unknown kind \(got '\.png'\); known: \.csv, \.npy, \.npz, \.tif, \.tiff"
+        TerrainError,
+        match=r"unknown kind \(got '\.jpg'\); known: \.asc, \.csv, \.npy, \.npz, \.png, \.tif, \.tiff",
     ):
         Terrain.from_file(picture, 1.0)
     bare = tmp_path / "bare"

@@ -20,11 +20,13 @@ class HeightMap:
         heights: (rows, columns) [m], rows along +y in the file's order.
         spacing: [m], or None.
         origin: (x, y) [m] of the first node, or None.
+        levels_of: where `heights` are grey levels and no metres, what levels the file has; else None.
     """
 
     heights: Any
     spacing: Any = None
     origin: Any = None
+    levels_of: str | None = None
 
 
 Reader = Callable[[Path, bool], HeightMap]
