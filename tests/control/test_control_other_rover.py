@@ -18,7 +18,7 @@ SIDES = Layout(Side("left", ("LF", "LB"), "L_h", "L_r"), Side("right", ("RF", "R
 
 @pytest.fixture
 def rover(make):
-    """Per side an arm on a differential's shaft, its wheel 0.5 m ahead and 0.2 m down, and its mirror image."""
+    """Per side an arm on a shaft, its wheel 0.5 m ahead and 0.2 m down, and its mirror image."""
     parts = [make.link("base", 20.0)]
     for s, y in (("L", 0.4), ("R", -0.4)):
         parts += [
