@@ -104,11 +104,11 @@ def rows(dataset: xr.Dataset) -> list[list[str]]:
 
 
 def _slope(dataset: xr.Dataset, name: str, k: int) -> str:
-    """A slope in degrees, with half its bracket where that is wider than it should be."""
+    """A slope in degrees, and how much steeper it might be where that is more than what is printed."""
     value, width = (math.degrees(float(dataset[f"{name}{part}_rad"][k])) for part in ("", "_open"))
     if math.isnan(value):
         return "-"
-    return f"{value:.3f}" if width <= WIDE else f"{value:.3f} +- {0.5 * width:.1g}"
+    return f"{value:.3f}" if width <= WIDE else f"{value:.3f} to {value + width:.3f}"
 
 
 def _friction(dataset: xr.Dataset) -> str:

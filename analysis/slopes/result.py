@@ -41,8 +41,10 @@ def as_dataset(
                 np.fmin(tip, slip),
                 {"units": "rad", "long_name": "the lesser of both"},
             ),
-            "tip_open_rad": told("tip_open", "width of the bracket about the slope at tip", "rad"),
-            "slip_open_rad": told("slip_open", "width of the bracket about the slope at slip", "rad"),
+            "tip_open_rad": told(
+                "tip_open", "how much further it might stand, no stance being found there", "rad"
+            ),
+            "slip_open_rad": told("slip_open", "how much further friction might hold it", "rad"),
             "tip_limiting": told("tip_limiting", "wheel, joint or link that ends it"),
             "tip_status": told("tip_status", "how the stance ends"),
             "slip_limiting": told("slip_limiting", "contact that slips first"),

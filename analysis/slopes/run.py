@@ -56,8 +56,8 @@ def slopes(
     Returns:
         Dimension heading_rad; `tip_rad`, `slip_rad`, `stands_to_rad` (the lesser), `tip_limiting` (wheel,
         joint or link), `tip_status`, `slip_limiting` (contact). `slip_rad` is NaN where the rover tips first;
-        all are where it does not stand on level ground. `tip_open_rad` and `slip_open_rad` are the widths
-        of the brackets: 1e-8, more where the solver found no stances in between.
+        all are where it does not stand on level ground. `tip_open_rad` and `slip_open_rad` say
+        how much steeper it might be: 1e-8, more where the solver found neither a stance nor its end.
 
     Raises:
         InputError: a number, posture, joint or lock that cannot be used.

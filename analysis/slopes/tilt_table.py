@@ -21,6 +21,9 @@ STEP = math.radians(4.0)
 CLOSE = 1e-8
 """rad to which a slope is found."""
 
+COARSE = 1e-6
+"""rad to which the end of slopes without an answer is found."""
+
 STEEPEST = math.radians(89.0)
 
 NOTHING = 1e-9
@@ -36,8 +39,9 @@ class Limits:
     """What ends standing in one heading.
 
     Attributes:
-        tip: rad, the slope at which there is no stance any more; NaN where it does not stand on level ground.
-        tip_open: rad, width of the bracket about it; more than `CLOSE` only where stances were not found.
+        tip: rad, the slope beyond which there is no stance; NaN where it does not stand on level ground.
+        tip_open: rad, how much further it might stand: more than `CLOSE` only where the solver found no
+            stance and no end of it.
         tip_limiting: the wheel, joint or link that ends it.
         tip_status: how that stance ends: `tips`, `grounded`, ...
         slip: rad, the slope from which friction holds it no longer; NaN where it tips before.
@@ -64,7 +68,7 @@ class TiltTable:
     stance, which is counted in plan, is atan2(sin(heading), cos(heading) cos(slope)).
 
     A stance that the solver does not find (`no_convergence`) is no answer: slopes beside it are asked, and
-    where none has one the bracket stays open.
+    where none has one it counts as no stance, and how far they go is told.
 
     Attributes:
         rover: what stands.
@@ -122,21 +126,28 @@ class TiltTable:
         return beside, stance
 
     def _tip(self, low: float, high: float, fallen: Stance) -> tuple[float, float, Stance]:
-        """The slope between standing and not, the width of its bracket, how it ends there."""
-        attempt = 0
-        while high - low > CLOSE:
-            guess = 0.5 * (low + high)
+        """The steepest slope that it is known to stand on, what is open above it, how it ends there."""
+        attempt, edge = 0, high
+        while edge - low > CLOSE:
+            guess = 0.5 * (low + edge)
             if attempt % 3:
-                guess = _beside(self._unloaded(low), low, high, attempt)
+                guess = _beside(self._unloaded(low), low, edge, attempt)
             attempt += 1
-            guess, stance = self._answered(guess, min(guess - low, high - guess))
-            if stance.status is Status.NO_CONVERGENCE:
-                break
+            guess, stance = self._answered(guess, min(guess - low, edge - guess))
             if stance.settled:
                 low = guess
+                continue
+            edge = guess
+            if stance.status is not Status.NO_CONVERGENCE:
+                high, fallen = guess, stance
+        while high - edge > COARSE:  # nothing was found just above: from where on is it sure to fall
+            guess = 0.5 * (edge + high)
+            stance = self.stance(guess)
+            if stance.settled or stance.status is Status.NO_CONVERGENCE:
+                edge = guess
             else:
                 high, fallen = guess, stance
-        return 0.5 * (low + high), high - low, fallen
+        return low, high - low, fallen
 
     def _unloaded(self, low: float) -> float:
         """Where the least load would be zero, going on straight from the two steepest stances."""
@@ -154,7 +165,7 @@ class TiltTable:
         return stability(self._standing[slope], ["slack"], self.friction)["slack"]
 
     def _slip(self, slopes: list[float]) -> tuple[float, float, str]:
-        """The first slope at which friction does not hold it, the bracket, the contact that slips."""
+        """The steepest slope at which friction holds it, what is open above it, the contact that slips."""
         low, within = -1.0, None
         for high in slopes:
             beyond = self._slack(high)
@@ -180,7 +191,7 @@ class TiltTable:
                 high, beyond = guess, found
             else:
                 low, within = guess, found
-        return 0.5 * (low + high), high - low, beyond.limiting or ""
+        return low, high - low, beyond.limiting or ""
 
 
 def _beside(zero: float, low: float, high: float, attempt: int) -> float:

@@ -1,5 +1,6 @@
 """Slopes at tip and at slip: closed forms of a rigid rover, suspensions, what cannot be asked."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -103,8 +104,30 @@ def test_a_suspension_tips_where_its_stance_ends():
     limits = TiltTable(rover, 0.0, None, {}).limits()
     assert limits.tip_status == "tips"
     table = TiltTable(rover, 0.0, None, {})
-    assert table.stance(limits.tip - 1e-6).settled
-    assert not table.stance(limits.tip + 1e-6).settled
+    assert table.stance(limits.tip).settled
+    assert not table.stance(limits.tip + limits.tip_open + 1e-6).settled
+    # the load of a wheel goes to nothing there
+    assert min(table.stance(limits.tip).loads.values()) < 1e-4 * rover.mass * 9.81
+
+
+def test_stances_that_are_not_found_leave_the_slope_open(monkeypatch):
+    table = TiltTable(fixture("rigid4"), 0.0, 0.3, {})
+    tip = table.limits().tip
+    plain = TiltTable.stance
+
+    def stance(self, slope):
+        found = plain(self, slope)
+        if tip - 0.02 < slope < tip + 0.01:
+            self._standing.pop(slope, None)
+            return dataclasses.replace(found, status=rp.Status.NO_CONVERGENCE)
+        return found
+
+    monkeypatch.setattr(TiltTable, "stance", stance)
+    limits = TiltTable(fixture("rigid4"), 0.0, 0.3, {}).limits()
+    assert limits.tip == pytest.approx(tip - 0.02, abs=1e-6)
+    assert limits.tip_open == pytest.approx(0.03, abs=3e-6)
+    assert limits.tip_status == "tips"
+    assert limits.slip == pytest.approx(math.atan(0.3), abs=1e-6)
 
 
 def test_the_heading_stays_in_the_board():
