@@ -100,10 +100,13 @@ def _value(told: Any) -> float | str | None:
 
 
 def _worst(each: list[dict[str, Any]]) -> dict[str, Any] | None:
-    """The heading in which it stands to the least slope; None where one does not stand on level ground."""
+    """The heading in which it stands to the least slope, the first of several alike to 1e-7 rad.
+
+    None where it does not stand on level ground.
+    """
     if any(math.isnan(one["stands_to_rad"]) for one in each):
         return None
-    return min(each, key=lambda one: one["stands_to_rad"])
+    return min(each, key=lambda one: round(one["stands_to_rad"], 7))
 
 
 def _save(data: xr.Dataset, html: Path | None, png: Path | None) -> None:
