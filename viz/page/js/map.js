@@ -3,46 +3,11 @@ import { fixed, nice, number, ticks, decimalsFor } from "./format.js";
 
 const MARGIN = { left: 46, right: 10, top: 8, bottom: 34 };
 
-/** Cells that just cover the cases: {wide, tall, nx, ny, x0, y0, members: list of case numbers per cell}. */
-export function cellsOf(cases) {
-  const [x, y] = [cases.column("x_m"), cases.column("y_m")];
-  let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
-  for (let i = 0; i < cases.count; i++) {
-    [x0, x1] = [Math.min(x0, x[i]), Math.max(x1, x[i])];
-    [y0, y1] = [Math.min(y0, y[i]), Math.max(y1, y[i])];
-  }
-  const area = Math.max((x1 - x0) * (y1 - y0), 1e-6);
-  const wanted = Math.min(cases.count / 5, 4000);
-  const size = Math.max(Math.sqrt(area / Math.max(wanted, 1)), Math.max(x1 - x0, y1 - y0) / 160, 1e-3);
-  const nx = Math.max(1, Math.round((x1 - x0) / size));
-  const ny = Math.max(1, Math.round((y1 - y0) / size));
-  const [wide, tall] = [(x1 - x0) / nx || size, (y1 - y0) / ny || size];
-  const members = Array.from({ length: nx * ny }, () => []);
-  for (let i = 0; i < cases.count; i++) {
-    const column = Math.min(nx - 1, Math.floor((x[i] - x0) / wide));
-    members[Math.min(ny - 1, Math.floor((y[i] - y0) / tall)) * nx + column].push(i);
-  }
-  return { wide, tall, nx, ny, x0, y0, members };
-}
-
-/** One value a cell: NaN where no case of it has an answer. */
-export function cellValues(cases, cells, measure, statistic) {
-  const values = cases.column(measure.name);
-  const sign = measure.better === "low" ? -1 : 1;
-  return cells.members.map((members) => {
-    const known = members.filter((i) => cases.settled(i) && !Number.isNaN(values[i])).map((i) => sign * values[i]);
-    if (!known.length) return NaN;
-    known.sort((a, b) => a - b);
-    const place = { worst: 0, median: (known.length - 1) >> 1, best: known.length - 1 }[statistic];
-    return sign * known[place];
-  });
-}
-
 /** Paint cells and contours with the context's transform in metres, y up. */
 export function paintCells(context, cells, values, scale, { pixel, alpha = 1 }) {
-  const { wide, tall } = cells;
+  const { wide, tall, shown } = cells;
   for (let k = 0; k < values.length; k++) {
-    if (!cells.members[k].length) continue;
+    if (!shown[k]) continue;
     const x = cells.x0 + (k % cells.nx) * wide;
     const y = cells.y0 + Math.floor(k / cells.nx) * tall;
     const none = Number.isNaN(values[k]);
@@ -117,6 +82,7 @@ export class MapView {
     context.strokeStyle = "#9aa6b2";
     context.strokeRect(...frame);
     this.axes(context);
+    if (!this.state.selection.count) message(context, "No case passes the filter: clear it to see them again.", w / 2, h / 2);
   }
 
   axes(context) {
@@ -186,26 +152,34 @@ export class MapView {
     return i >= 0 && j >= 0 && i < cells.nx && j < cells.ny ? j * cells.nx + i : null;
   }
 
-  /** Choose the cell's worst case. */
+  /** Choose the case that the cell shows. */
   pick(event) {
-    const { cells, cases, measure, choose } = this.state;
     const cell = this.cellAt(event);
-    if (cell === null || !cells.members[cell].length) return;
-    choose([...cells.members[cell]].sort(cases.worseFirst(measure.name))[0]);
+    if (cell !== null && this.state.cells.picks[cell] >= 0) this.state.choose(this.state.cells.picks[cell]);
   }
 
   hover(event) {
     const { cells, values, measure, statistic } = this.state;
     const cell = this.cellAt(event);
-    const members = cell === null ? [] : cells.members[cell];
-    this.tip.hidden = !members.length;
-    if (!members.length) return;
+    const count = cell === null ? 0 : cells.shown[cell];
+    this.tip.hidden = !count;
+    if (!count) return;
     const value = Number.isNaN(values[cell]) ? "no answer" : `${statistic} ${number(values[cell] * measure.factor)} ${measure.unit}`;
-    this.tip.textContent = `${value} · ${members.length} case${members.length > 1 ? "s" : ""}`;
+    this.tip.textContent = `${value} · ${fixed(count, 0)} case${count > 1 ? "s" : ""}`;
     const box = this.canvas.getBoundingClientRect();
     this.tip.style.left = `${Math.min(event.clientX - box.left + 12, this.view.w - this.tip.offsetWidth - 4)}px`;
     this.tip.style.top = `${event.clientY - box.top + 14}px`;
   }
+}
+
+function message(context, text, x, y) {
+  context.font = "13px system-ui, sans-serif";
+  context.textAlign = "center";
+  const wide = context.measureText(text).width + 24;
+  context.fillStyle = "rgba(255, 255, 255, .92)";
+  context.fillRect(x - wide / 2, y - 18, wide, 30);
+  context.fillStyle = "#1d242c";
+  context.fillText(text, x, y + 2);
 }
 
 function line(context, x0, y0, x1, y1) {
