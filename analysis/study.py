@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from rover_pin.analysis.engines import Resources, engine
 from rover_pin.analysis.given import GivenTerrain, as_text
+from rover_pin.analysis.ground import Ground
 from rover_pin.analysis.job import Chunk, Runner
 from rover_pin.analysis.parts import Parts
 from rover_pin.analysis.plan import Plan, plan
@@ -137,7 +138,7 @@ class Study:
 
         Args:
             payload: (kg, place) as for `Rover.with_payload`, on top of the study's own.
-            keys: as in a study file.
+            keys: as in a study file; `terrain` may be a Terrain.
 
         Raises:
             StudyError: a value that cannot be used.
@@ -147,8 +148,8 @@ class Study:
             more = [{"kg": kg, "at": at if isinstance(at, str) else list(at)} for kg, at in payload]
             raw["payload"] = [*(raw.get("payload") or ()), *more]
         text = as_text(raw)
-        if "terrain" not in keys:
-            raw["terrain"] = self.spec.terrain
+        ground = keys.get("terrain", self.spec.terrain)
+        raw["terrain"] = ground if isinstance(ground, str | Mapping | Ground) else GivenTerrain(given=ground)
         study = type(self).__new__(type(self))
         given = None if "robot" in keys else self._given
         study._take(checked(StudySpec, raw, file=self.file), text, self.file, self.folder, given)
