@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from rover_pin.analysis.comparison import Comparison
     from rover_pin.analysis.comparison.result import Pair
 
+READING = (
+    "Figures: distributions with medians; case against case (above the line the second has more); "
+    "differences with the interval of their median; where they lie (purple: the second is better, orange: worse)."
+)
 NAMED = 60
 """Case numbers that the page names."""
 
@@ -69,7 +73,7 @@ def _designs(found: Comparison, names: Mapping[str, str]) -> str:
         for label, why in found.left_out.items()
         for name, reason in why.items()
     ]
-    return card("Designs", table(head, rows), " ".join(notes))
+    return card("Designs", table(head, rows), " ".join([*notes, READING]))
 
 
 def _pair(found: Comparison, pair: Pair, names: Mapping[str, str]) -> str:
@@ -104,12 +108,8 @@ def _measure(found: Comparison, measure: str, names: Mapping[str, str]) -> str:
         drawing(plot_pair(found, pair, measure, names), f"{measure}: {pair.second} beside {pair.first}")
         for pair in found.pairs
     ]
-    note = (
-        "Distributions with medians; case against case (above the line the second has more); "
-        "differences with the interval of their median; where they lie (purple: the second is better, orange: worse)."
-    )
     body = f'<div class="pictures">{"".join(pictures)}</div>'
-    return card(title_of(measure, attrs), body, note)
+    return card(title_of(measure, attrs), body)
 
 
 def _share(share: float) -> str:
