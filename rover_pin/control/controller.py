@@ -19,6 +19,7 @@ from rover_pin.control.projection import Look, Projection, Watch
 from rover_pin.control.supervisor import AT_REST, Order, State, Supervisor
 from rover_pin.control.threshold import Reading, Threshold
 from rover_pin.errors import InputError, nearest
+from rover_pin.kinematics.finite import not_finite
 from rover_pin.kinematics.instant import Instant
 from rover_pin.kinematics.inverse import InverseKinematics
 from rover_pin.kinematics.solution import Solution
@@ -232,10 +233,9 @@ class Controller:
             numbers = np.asarray(values, dtype=np.float64)
             if numbers.shape != self._still.shape:
                 return f"{numbers.size} numbers for the {word}s of {self._still.size} coordinates"
-            bad = np.flatnonzero(~np.isfinite(numbers))
-            if len(bad):
-                name = self.rover.dof_names[int(bad[0])]
-                return f"the sensor of {name} tells {numbers[bad[0]]} for its {word}"
+            bad = not_finite(numbers)
+            if bad is not None:
+                return f"the sensor of {self.rover.dof_names[bad]} tells {numbers[bad]} for its {word}"
         for wheel, load in (loads or {}).items():
             if not math.isfinite(load):
                 return f"the load sensor of {wheel} tells {load}"

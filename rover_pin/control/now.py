@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rover_pin.errors import InputError
+from rover_pin.kinematics.finite import not_finite
 from rover_pin.kinematics.instant import Instant
 from rover_pin.numerics import Array
 
@@ -47,8 +48,8 @@ class Now:
                     value=rates.shape,
                     cure=f"give shape ({len(names)},)",
                 )
-            if not np.isfinite(rates).all():
-                bad = int(np.flatnonzero(~np.isfinite(rates))[0])
+            bad = not_finite(rates)
+            if bad is not None:
                 raise InputError(
                     "is no finite number", element=f"{word} of {names[bad]}", value=float(rates[bad])
                 )

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from rover_pin.contact.pack import half_extents, pack
 from rover_pin.contact.search import find_all
 from rover_pin.errors import InputError
-from rover_pin.kinematics.kernels import tangents, velocity_rows
+from rover_pin.kinematics.finite import not_finite
+from rover_pin.kinematics.kernels import place_shapes, rolling_frame, velocity_rows
 from rover_pin.mechanism import Kinematics
 from rover_pin.mechanism.frames import find_frame
 from rover_pin.numerics import Array, frozen
@@ -115,8 +116,8 @@ class Bodies:
                 value=values.shape,
                 cure=f"give shape ({self.model.nv},): {', '.join(self.rover.dof_names)}",
             )
-        if not np.isfinite(values).all():
-            bad = int(np.flatnonzero(~np.isfinite(values))[0])
+        bad = not_finite(values)
+        if bad is not None:
             raise InputError(
                 "is no finite number", element=self.rover.dof_names[bad], value=float(values[bad])
             )
@@ -194,9 +195,9 @@ class Instant:
     def _shapes(self) -> tuple[Array, Array]:
         packed, placed = self.bodies.packed, self.placed
         frames = np.array([placed[joint].homogeneous for joint in packed.joints.tolist()])
-        turned = frames[:, :3, :3]
-        centers = np.einsum("sij,sj->si", turned, packed.centers) + frames[:, :3, 3]
-        return centers, np.einsum("sij,sj->si", turned, packed.axes)
+        centers, axes = np.empty_like(packed.centers), np.empty_like(packed.axes)
+        place_shapes(frames, packed.centers, packed.axes, centers, axes)
+        return centers, axes
 
     @property
     def centers(self) -> Array:
@@ -216,28 +217,29 @@ class Instant:
     @property
     def rolling(self) -> Array:
         """(s, 3) unit, world: where each wheel rolls to, in the ground's tangent plane: axis x normal."""
-        return self._tangents[0]
+        rolling: Array = self._rolling_frame[0][1]
+        return rolling
 
     @property
     def sideways(self) -> Array:
         """(s, 3) unit, world: across the rolling direction, to the left of it, in the tangent plane."""
-        return self._tangents[1]
+        sideways: Array = self._rolling_frame[0][2]
+        return sideways
 
-    @cached_property
-    def _tangents(self) -> tuple[Array, Array]:
-        found = np.empty_like(self.axes), np.empty_like(self.axes)
-        tangents(self.axes, self.contacts, *found)
-        return found
-
-    @cached_property
+    @property
     def contact_rows(self) -> Array:
         """(3, s, nv) velocities [m/s] where shapes touch: along the normal, rolling, and sideways."""
+        return self._rolling_frame[1]
+
+    @cached_property
+    def _rolling_frame(self) -> tuple[Array, Array]:
         contacts, bodies = self.contacts, self.bodies
+        along = np.empty((3, len(contacts), 3))
         rows = np.empty((3, len(contacts), self.jacobian.shape[1]))
-        points = contacts[:, 1:4]
-        for block, along in zip(rows, (contacts[:, 4:7], self.rolling, self.sideways), strict=True):
-            velocity_rows(self.jacobian, bodies.chains, bodies.rolling_joints, points, along, block)
-        return rows
+        rolling_frame(
+            self.jacobian, bodies.chains, bodies.rolling_joints, contacts, self.axes, along, rows
+        )  # fmt: skip
+        return along, rows
 
     @property
     def normal_rows(self) -> Array:

@@ -44,14 +44,38 @@ def velocity_rows(
 
 
 @formula
-def tangents(axes: Array, contacts: Array, rolling: Array, sideways: Array) -> None:
-    """Where wheels roll to, axis x normal, and to the left of it, in the ground's tangent planes.
+def place_shapes(frames: Array, centers: Array, axes: Array, placed: Array, turned: Array) -> None:
+    """Centres and axes of shapes in the world.
 
     Args:
+        frames: (s, 4, 4) placements of the bodies that carry them.
+        centers: (s, 3) m, in their bodies' frames.
+        axes: (s, 3) unit, likewise.
+        placed: (s, 3) receives the centres, m, world.
+        turned: (s, 3) receives the axes, world.
+    """
+    for i in range(frames.shape[0]):
+        for k in range(3):
+            x, y, z = frames[i, k, 0], frames[i, k, 1], frames[i, k, 2]
+            placed[i, k] = x * centers[i, 0] + y * centers[i, 1] + z * centers[i, 2] + frames[i, k, 3]
+            turned[i, k] = x * axes[i, 0] + y * axes[i, 1] + z * axes[i, 2]
+
+
+@formula
+def rolling_frame(
+    jacobian: Array, chains: Array, joints: Integers, contacts: Array, axes: Array, along: Array, rows: Array
+) -> None:
+    """Directions at the places of contact and velocities along them.
+
+    Args:
+        jacobian: (6, nv) as in `velocity_rows`.
+        chains: (joints, nv) 1 where a column moves a body.
+        joints: (s,) bodies.
+        contacts: (s, 7) gap, point [m], unit normal, world.
         axes: (s, 3) unit, world.
-        contacts: (s, 7) gap, point, unit normal.
-        rolling: (s, 3) receives unit vectors; zeros where the axis is along the normal.
-        sideways: (s, 3) likewise.
+        along: (3, s, 3) receives unit vectors: the normal; where wheels roll to, axis x normal; to the left
+            of it, in the ground's tangent plane. The last two are zeros where the axis is along the normal.
+        rows: (3, s, nv) receives velocities of the points along them.
     """
     for i in range(axes.shape[0]):
         ax, ay, az = axes[i, 0], axes[i, 1], axes[i, 2]
@@ -59,8 +83,12 @@ def tangents(axes: Array, contacts: Array, rolling: Array, sideways: Array) -> N
         x, y, z = ay * nz - az * ny, az * nx - ax * nz, ax * ny - ay * nx
         share = 1.0 / max(math.sqrt(x * x + y * y + z * z), 1e-12)
         x, y, z = x * share, y * share, z * share
-        rolling[i, 0], rolling[i, 1], rolling[i, 2] = x, y, z
-        sideways[i, 0], sideways[i, 1], sideways[i, 2] = ny * z - nz * y, nz * x - nx * z, nx * y - ny * x
+        along[0, i, 0], along[0, i, 1], along[0, i, 2] = nx, ny, nz
+        along[1, i, 0], along[1, i, 1], along[1, i, 2] = x, y, z
+        along[2, i, 0], along[2, i, 1], along[2, i, 2] = ny * z - nz * y, nz * x - nx * z, nx * y - ny * x
+    points = contacts[:, 1:4]
+    for k in range(3):
+        velocity_rows(jacobian, chains, joints, points, along[k], rows[k])
 
 
 @formula

@@ -122,12 +122,16 @@ def _stacked(n: int, nv: int, blocks: Sequence[Rows]) -> tuple[Array, Array]:
 
 def _bounds(at: Instant, n: int, nv: int, boxes: Sequence[Box], dt: float) -> tuple[Array, Array]:
     floor, ceiling = np.empty(n), np.empty(n)
-    floor.fill(-np.inf)
-    ceiling.fill(np.inf)
-    for box in boxes:
+    if not boxes or n > nv:
+        floor.fill(-np.inf)
+        ceiling.fill(np.inf)
+    for i, box in enumerate(boxes):
         low, high = box.box(at, dt)
-        np.maximum(floor[:nv], low, out=floor[:nv])
-        np.minimum(ceiling[:nv], high, out=ceiling[:nv])
+        if i == 0:
+            floor[:nv], ceiling[:nv] = low, high
+        else:
+            np.maximum(floor[:nv], low, out=floor[:nv])
+            np.minimum(ceiling[:nv], high, out=ceiling[:nv])
     return floor, ceiling
 
 

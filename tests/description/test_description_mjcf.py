@@ -7,6 +7,7 @@ import pinocchio as pin
 import pytest
 
 import rover_pin as rp
+from rover_pin.description.mjcf import is_mjcf
 from rover_pin.mechanism import Kinematics
 
 mujoco = pytest.importorskip("mujoco")
@@ -227,3 +228,18 @@ def test_files_that_cannot_be_used(tmp_path, body, more, told):
     with pytest.raises(rp.errors.DescriptionError) as caught:
         rp.load(path)
     assert str(caught.value).replace(f"{path}: ", "") == told
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("<mujoco/>", True),
+        ('\ufeff <?xml version="1.0"?>\n<!-- <robot> -->\n<!DOCTYPE x>\n<mujoco model="m">', True),
+        ("<!-- <mujoco> --><robot/>", False),
+        ("<mujoco_robot/>", False),
+        ("<!-- never closed <mujoco>", False),
+        ('<?xml version="1.0"?>' + "\n<!-- word -->" * 5000 + "<robot/>", False),  # and quickly
+    ],
+)
+def test_what_is_an_mjcf(text, told):
+    assert is_mjcf(text) is told

@@ -16,7 +16,7 @@ from rover_pin.description.notes import Notes
 
 __all__ = ["Converted", "convert", "is_mjcf"]
 
-_BEFORE = re.compile(r"\A\s*(?:<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>]*>|\s)*<mujoco\b", re.DOTALL)
+_ENDS = {"<?": "?>", "<!--": "-->", "<!": ">"}  # of what may stand before the outermost element
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,13 @@ class Converted:
 
 def is_mjcf(text: str) -> bool:
     """Whether the outermost element is `<mujoco>`."""
-    return _BEFORE.match(text.removeprefix("\ufeff")) is not None
+    rest = text.removeprefix("\ufeff").lstrip()
+    while (begin := next((each for each in _ENDS if rest.startswith(each)), None)) is not None:
+        _, end, rest = rest.partition(_ENDS[begin])
+        if not end:
+            return False
+        rest = rest.lstrip()
+    return re.match(r"<mujoco[\s/>]", rest) is not None
 
 
 def convert(text: str, path: Path, notes: Notes) -> Converted:

@@ -12,6 +12,7 @@ from rover_pin.errors import InputError
 from rover_pin.kinematics.instant import Bodies, Instant, Integers
 from rover_pin.kinematics.rolling import DIRECTIONS
 from rover_pin.kinematics.rows import Rows, equations, gain_between, weight
+from rover_pin.numerics import Array
 
 
 @dataclass(frozen=True)
@@ -57,8 +58,9 @@ class ContactKept:
         Raises:
             InputError: a lifted wheel that the rover does not have.
         """
-        blocks, names, normals = self._standing(at)
-        matrix = np.concatenate([at.contact_rows[place][which] for place, which in blocks])
+        places, names, normals = self._standing(at)
+        every = at.contact_rows
+        matrix: Array = every.reshape(-1, every.shape[2]).take(places, axis=0)
         rate = np.zeros(len(matrix))
         if normals is not None:
             first, which = normals
@@ -73,15 +75,17 @@ class ContactKept:
             stands = [i for i in range(len(shapes)) if i not in away]
             rolls = [i for i in stands if at.bodies.can_hold[i]]
             feet = [i for i in stands if i >= len(at.rover.wheels)]
-            blocks, normals = [], None
+            normals = None
+            places: list[int] = []
             names: list[str] = []
             for word in self.directions:
                 for row, chosen in _rows_of(word, stands, rolls, feet):
-                    which = np.array(chosen, dtype=np.int64)
-                    normals = (len(names), which) if row == "normal" else normals
-                    blocks.append((DIRECTIONS.index(row), which))
+                    if row == "normal":
+                        normals = len(names), np.array(chosen, dtype=np.int64)
+                    first = DIRECTIONS.index(row) * len(shapes)
+                    places += [first + i for i in chosen]
                     names += [f"{_WORDS[row]} of {shapes[i]}" for i in chosen]
-            self._kept[:] = [(at.bodies, Standing(blocks, tuple(names), normals))]
+            self._kept[:] = [(at.bodies, Standing(np.array(places, dtype=np.int64), tuple(names), normals))]
         return self._kept[0][1]
 
 
@@ -98,12 +102,12 @@ class Standing(NamedTuple):
     """Rows of what stands.
 
     Attributes:
-        blocks: direction and shapes of each block.
+        places: of each row among all shapes' normal, rolling and sideways rows.
         names: of all rows.
         normals: first row and shapes of the rows along the normal, where there are some.
     """
 
-    blocks: list[tuple[int, Integers]]
+    places: Integers
     names: tuple[str, ...]
     normals: tuple[int, Integers] | None
 
