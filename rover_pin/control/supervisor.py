@@ -9,8 +9,8 @@ Beyond the paper:
 - A fault (a sensor, a refusal, a clock that runs back) holds the rover where it is, whatever it was doing.
 - An action that was interrupted is undone too, first of all; how far it had come is its executor's business.
 - "Where it began" is where the current mode began: modes that are done stay done.
-- The rollback is the last word: what is reached on the way back is noted and reminds nobody. A projection that
-  is infeasible on the way back holds, as there is nowhere left to go.
+- The rollback is the last word: what is reached on the way back is noted and reminds nobody. A projection
+  that is infeasible on the way back holds, as there is nowhere left to go.
 - An answer counts if it is given before the deadline, not at it.
 """
 
@@ -178,8 +178,8 @@ class Supervisor:
             crossed: motion constraints that have reached their thresholds.
             infeasible: which rows of the projection fight, empty where it was solved.
             finished: whether the action to run or undo has reached its end.
-            fault: what is wrong with the rover or its sensors, empty where nothing is. It goes before all else,
-                and holds a rover whose mode has ended too.
+            fault: what is wrong with the rover or its sensors, empty where nothing is. It goes before all
+                else, and holds a rover whose mode has ended too.
 
         Raises:
             InputError: one word in place of a list.

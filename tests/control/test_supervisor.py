@@ -92,7 +92,9 @@ def test_an_operator_who_is_slow_to_answer(asked_before):
 
 @pytest.mark.parametrize("asked_before", [False, True])
 @pytest.mark.parametrize("answers", [False, True])
-@pytest.mark.parametrize(("thinks", "words"), [(-0.5, "the clock ran back from "), (math.nan, "the clock tells nan")])
+@pytest.mark.parametrize(
+    ("thinks", "words"), [(-0.5, "the clock ran back from "), (math.nan, "the clock tells nan")]
+)
 def test_a_clock_that_fails_while_the_operator_is_asked(asked_before, answers, thinks, words):
     """Nothing may be undone by a clock that cannot be: the rover is held."""
     bench = begun()

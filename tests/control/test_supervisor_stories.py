@@ -107,7 +107,9 @@ class AnyStory(RuleBasedStateMachine):
     def forth_in_order_and_back_the_way_it_came(self):
         went = [e.action for e in self.events if e.state is State.RUNNING]
         back = [
-            e.action for e in self.events if e.state is State.ROLLING_BACK and not e.reason.startswith("reached")
+            e.action
+            for e in self.events
+            if e.state is State.ROLLING_BACK and not e.reason.startswith("reached")
         ]
         assert went == list(ACTIONS[: len(went)])
         assert back == went[::-1][: len(back)]
