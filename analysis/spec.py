@@ -16,6 +16,7 @@ from rover_pin.analysis.quantities import (
     Quantity,
     QuantityField,
     Span,
+    number,
     quantity,
 )
 from rover_pin.analysis.search_spec import SearchSpec
@@ -126,11 +127,22 @@ class VarySpec(Strict):
         return given
 
 
+def _seat(raw: Any) -> Any:
+    if isinstance(raw, str):
+        return raw
+    if not isinstance(raw, list | tuple) or len(raw) != 3:
+        raise StudyError("is no place", value=raw, cure="write [x, y, z] in m, or a link's name")
+    return tuple(number(part) for part in raw)
+
+
+Seat = Annotated[Any, BeforeValidator(_seat)]
+
+
 class PayloadSpec(Strict):
-    """A mass [kg] at a point of the base [m]."""
+    """A mass [kg] at a point of the base [m], or at the origin of a link."""
 
     kg: float = Field(gt=0)
-    at: tuple[float, float, float]
+    at: Seat
 
 
 def _measures(raw: Any) -> Any:

@@ -23,7 +23,7 @@ from rover_pin.mechanism import Coupling, FrameSpring, Loop, OneSided, Spring, T
 from rover_pin.mechanism.frames import find_frame
 from rover_pin.mobility import Mobility, measure_mobility
 from rover_pin.numerics import Array, frozen
-from rover_pin.payload import put_on_base
+from rover_pin.payload import put_on
 from rover_pin.posture import resolve_posture
 
 if TYPE_CHECKING:
@@ -225,12 +225,14 @@ class Rover:
         return frozen(jacobian)
 
     def with_payload(self, payload: Sequence[Payload]) -> Rover:
-        """The same rover with point masses on its base: (kg, (x, y, z) in the root link's frame).
+        """The same rover with point masses on it: (kg, (x, y, z) in the root link's frame [m]) or (kg, link).
+
+        A mass on a link or joint sits at its origin and moves with it.
 
         Raises:
-            InputError: a mass below zero, or something that is no finite number.
+            InputError: a mass below zero, something that is no finite number, or no such link or joint.
         """
-        model, checked = put_on_base(self.model, self.root, payload)
+        model, checked = put_on(self.model, self.root, payload)
         recipe = dataclasses.replace(self.recipe, payload=(*self.recipe.payload, *checked))
         return dataclasses.replace(self, model=model, recipe=recipe)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from rover_pin.cli.options import Json
+from rover_pin.cli.options import Json, OwnGravity, Payload, altered
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -35,6 +35,8 @@ def study(
     scheduler: Annotated[str | None, typer.Option(help="Of a cluster's engine.", metavar="ADDRESS")] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on with a run that was stopped.")] = False,
     html: Annotated[Path | None, typer.Option(help="Write the study's page.", metavar="FILE")] = None,
+    gravity: OwnGravity = None,
+    payload: Payload = None,
     json: Json = False,
 ) -> int:
     """Many cases of one question, each a row of a dataset."""
@@ -47,7 +49,7 @@ def study(
 
     path = out or Path(f"{spec.stem if spec else 'study'}.nc")
     check_outputs(path, html)
-    asked = Study.default() if spec is None else Study.from_file(spec)
+    asked = altered(Study.default() if spec is None else Study.from_file(spec), gravity, payload)
     started = time.perf_counter()
     try:
         announce_compilation(batch=True)

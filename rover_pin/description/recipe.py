@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-Payload = tuple[float, tuple[float, float, float]]
+Payload = tuple[float, tuple[float, float, float] | str]
+"""A mass [kg] and where: a place in the root link's frame [m], or the link at whose origin it sits."""
 
 
 @dataclass(frozen=True)
@@ -22,7 +23,7 @@ class Recipe:
         parameters: value of every declared parameter.
         packages: package name -> folder, as given.
         skip_missing_includes: as given.
-        payload: masses put on the base: kg, place in the root link's frame (m).
+        payload: masses put on it.
         notes: what expanding told.
     """
 

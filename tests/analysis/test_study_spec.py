@@ -71,7 +71,7 @@ def test_quantities(written: object, meant: object) -> None:
         ),
         (
             BASE + "gravity: mers",
-            "s.yaml: gravity: gravity is not a number (got 'mers'); did you mean 'mars'?",
+            "s.yaml: gravity: gravity is not a number (got 'mers'); did you mean 'mars' or 'ceres' or 'mercury'?",
         ),
         (
             BASE + "vary: {x: [5, 1]}",
