@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from rover_pin.description.masses import Masses
+
 Payload = tuple[float, tuple[float, float, float]]
 
 
@@ -23,6 +25,7 @@ class Recipe:
         packages: package name -> folder, as given.
         skip_missing_includes: as given.
         payload: masses put on the base: kg, place in the root link's frame (m).
+        masses: other ones than the texts say.
         notes: what expanding told.
     """
 
@@ -35,4 +38,5 @@ class Recipe:
     packages: Mapping[str, str] = field(default_factory=dict)
     skip_missing_includes: bool = False
     payload: tuple[Payload, ...] = ()
+    masses: Masses = Masses()
     notes: tuple[str, ...] = ()
