@@ -70,7 +70,9 @@ class Grid:
 def _axis(name: str, asked: Quantity, count: int) -> Axis:
     if isinstance(asked, Chance):
         cure = "draw it: cases: {sampler: sobol, n: 10000}, random or saltelli; or give a range"
-        raise StudyError("a grid cannot cut a distribution", element=f"vary.{name}", value=asked.kind, cure=cure)
+        raise StudyError(
+            "a grid cannot cut a distribution", element=f"vary.{name}", value=asked.kind, cure=cure
+        )
     if isinstance(asked, Choice):
         return Axis(asked, len(asked.values), False)
     whole = name == "yaw_deg" and math.isclose(asked.high - asked.low, CIRCLE_DEG)

@@ -89,7 +89,9 @@ def plan(spec: StudySpec, folder: Path, file: object, given: Rover | None = None
     made_of = {
         "the cases": cases.digest,
         "the measures": digest(repr(spec.measures)),
-        "gravity, payload or locks": digest(repr((spec.gravity, rover.recipe.payload, rover.recipe.masses, spec.locks))),
+        "gravity, payload or locks": digest(
+            repr((spec.gravity, rover.recipe.payload, rover.recipe.masses, spec.locks))
+        ),
         "the robot's description": hashlib.sha256(
             repr([(each.urdf, each.recipe.parameters) for each in rovers]).encode()
         ).hexdigest(),

@@ -147,7 +147,11 @@ class VarySpec(Strict):
     @classmethod
     def _whole(cls, raw: Any) -> Any:
         """A quantity instead of quantities by link is the robot's."""
-        words = isinstance(raw, Mapping) and bool(raw) and set(raw) <= {*KEYS, "values", "from", "to", "by", "count"}
+        words = (
+            isinstance(raw, Mapping)
+            and bool(raw)
+            and set(raw) <= {*KEYS, "values", "from", "to", "by", "count"}
+        )
         return {ROBOT: raw} if raw is not None and (words or not isinstance(raw, Mapping)) else raw
 
     @field_validator("mass")

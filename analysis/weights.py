@@ -76,7 +76,8 @@ def changes_of(weights: Mapping[str, Array]) -> Changes:
     return Changes(
         kg={_split(name)[1]: values for name, values in weights.items() if name.startswith("mass/")},
         com={
-            link: np.stack([weights[f"com/{link}/{axis}"] for axis in AXES], axis=1) for link in _moved(weights)
+            link: np.stack([weights[f"com/{link}/{axis}"] for axis in AXES], axis=1)
+            for link in _moved(weights)
         },
         payload=payload,
     )

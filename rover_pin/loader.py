@@ -15,8 +15,8 @@ from rover_pin.description.couplings import gather_couplings
 from rover_pin.description.expand import expand, refuse_undeclared
 from rover_pin.description.geometry import read_geometry
 from rover_pin.description.gepetto import stands_in
-from rover_pin.description.mjcf import Converted, convert, is_mjcf
 from rover_pin.description.masses import Masses
+from rover_pin.description.mjcf import Converted, convert, is_mjcf
 from rover_pin.description.model import BASE_DOF, build_model, joint_names, set_limits
 from rover_pin.description.notes import Notes
 from rover_pin.description.others import Kind, Other

@@ -16,6 +16,7 @@ from rover_pin.weighing import NONE, Body, Changes, weigh_anew
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
 
+
 def bodies_of(model: pin.Model, urdf: str, file: str) -> dict[str, Body]:
     """Every link as it is fixed to its joint, as the URDF says, payload left out."""
     found = {}
@@ -106,4 +107,3 @@ def reweigh(rover: Rover, masses: Masses) -> pin.Model:
         else:
             model.inertias[j] = pin.Inertia.Zero()
     return model
-

@@ -18,7 +18,6 @@ from rover_pin.description.masses import ROBOT
 from rover_pin.description.recipe import Payload
 from rover_pin.numerics import Array
 
-
 NONE = 1e-12
 """kg or kg m: below this there is nothing that could be moved."""
 
