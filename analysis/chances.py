@@ -1,8 +1,10 @@
 """How often a study's rover tips or slips: shares of the drawn cases, each with its interval.
 
-Cases that are drawn independently (sampler `random`) make a binomial count, for which the interval of Clopper and
+Cases that are drawn independently (sampler `random`) make a binomial count, for which the interval of
+Clopper and
 Pearson (scipy's `binomtest`, method `exact`) covers with at least its confidence. Points of a scrambled Sobol
-sequence are not independent: they fill the space more evenly, the error of a share is as a rule smaller, and the same
+sequence are not independent: they fill the space more evenly, the error of a share is as a rule smaller,
+and the same
 interval is then wider than need be; that is no theorem for every set, so it is told as `conservative`. Of a
 Saltelli sample only the first and the last case of each block count: the others repeat their values.
 """
@@ -29,7 +31,7 @@ FALLEN = ("tips", "loose", "slack")
 INTERVALS = {
     "random": "exact binomial (Clopper-Pearson)",
     "sobol": "Clopper-Pearson, as if drawn independently: conservative for scrambled Sobol points",
-    "saltelli": "Clopper-Pearson, as if drawn independently, of each block's first and last case: conservative",
+    "saltelli": "Clopper-Pearson, as if drawn independently, of each block's two ends: conservative",
 }
 """What the interval is, by sampler; others draw nothing."""
 

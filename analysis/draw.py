@@ -86,8 +86,7 @@ def draw(questions: Questions, spec: CasesSpec) -> Draw:
             cannot cut, or too many cases.
     """
     sampler = _sampler(questions, spec)
-    endless = isinstance(sampler, Sobol | Independent)
-    return Draw(questions, spec, spec.number if endless else sampler.count)
+    return Draw(questions, spec, spec.number if isinstance(sampler, Sobol | Independent) else sampler.count)
 
 
 def _sampler(questions: Questions, spec: CasesSpec) -> Sobol | Independent | Saltelli | Grid | OneByOne:

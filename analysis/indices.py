@@ -1,7 +1,9 @@
 """Which of the things that vary matter: Sobol indices of every figure, by SALib from a Saltelli sample.
 
-First order: the share of a figure's variance that is gone when an input is known. Total: the share that is left when
-all the others are known. Estimators of Saltelli et al. 2010 (doi:10.1016/j.cpc.2009.09.018), intervals by bootstrap.
+First order: the share of a figure's variance that is gone when an input is known. Total: the share that is
+left when
+all the others are known. Estimators of Saltelli et al. 2010 (doi:10.1016/j.cpc.2009.09.018), intervals by
+bootstrap.
 """
 
 from __future__ import annotations
@@ -20,7 +22,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 MOST_DROPPED = 0.1
-"""Share of blocks that may be without an answer: what is left is no longer the distributions that were asked."""
+"""Share of blocks that may be without an answer: what is left is not what was asked."""
 
 RESAMPLES = 200
 CONFIDENCE = 0.95
@@ -39,8 +41,10 @@ def sobol_indices(data: xr.Dataset, figures: Mapping[str, Array] | None = None) 
         figures: (cases,) numbers by name; silent: those of the study.
 
     Returns:
-        Dimensions figure, input. `first`, `total`; `first_conf`, `total_conf`: half-widths of their 95 % intervals,
-        all [-]; NaN where a figure does not vary. `blocks`, `dropped` (figure). Attribute `refused`: figures of
+        Dimensions figure, input. `first`, `total`; `first_conf`, `total_conf`: half-widths of their 95 %
+        intervals,
+        all [-]; NaN where a figure does not vary. `blocks`, `dropped` (figure). Attribute `refused`:
+        figures of
         which more than a tenth of the blocks are dropped, one a line.
 
     Raises:

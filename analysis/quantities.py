@@ -1,4 +1,4 @@
-"""What a study may vary: a range, a choice, a distribution, or one fixed value, as the study file writes it."""
+"""What a study may vary, as the study file writes it: a range, a choice, a distribution, or one value."""
 
 from __future__ import annotations
 
@@ -72,7 +72,8 @@ def quantity(raw: object) -> Quantity:
     """Read a quantity: `0.5` or `[0.5]` fixed, `[lo, hi]` a range, three or more a choice.
 
     `{values: [a, b]}` is a choice of two, `{from: lo, to: hi, by: step}` one of evenly spaced values, as is
-    `{from: lo, to: hi, count: n}`. Distributions: `{normal: {mean: 10, sd: 0.5, bounds: [8, 12]}}` and the others
+    `{from: lo, to: hi, count: n}`. Distributions: `{normal: {mean: 10, sd: 0.5, bounds: [8, 12]}}` and the
+    others
     of `chance.py`; a uniform one is a range.
 
     Raises:
@@ -103,7 +104,8 @@ def _mapped(raw: Mapping[Any, Any]) -> Quantity:
     if keys == {"values"} and isinstance(raw["values"], list | tuple) and raw["values"]:
         return Choice(tuple(number(v) for v in raw["values"]))
     if keys not in ({"from", "to", "by"}, {"from", "to", "count"}):
-        cure = "write [lo, hi], {values: [a, b, ...]}, {from: lo, to: hi, by: step} or {normal: {mean: 1, sd: 0.1}}"
+        cure = "write [lo, hi], {values: [a, b, ...]}, {from: lo, to: hi, by: step} "
+        cure += "or {normal: {mean: 1, sd: 0.1}}"
         raise StudyError("is no quantity", value=dict(raw), cure=cure)
     low, high = number(raw["from"]), number(raw["to"])
     if low >= high:

@@ -187,9 +187,9 @@ def _asked(cases: Cases, taken: set[str], units: Mapping[str, str]) -> Iterator[
             POSTURE, (CASE,), attrs, lambda block: Words.picked(block.cases.posture, known), "S", width, True
         )
     for name in cases.weights:
-        spoken, unit, text = weights.about(name)
+        spoken, measured_in, meaning = weights.about(name)
         own = spoken if spoken not in taken else f"vary_{spoken}"
-        yield number(own, lambda drawn, name=name: drawn.weights[name], units=unit, long_name=text)  # type: ignore[misc]
+        yield number(own, lambda drawn, name=name: drawn.weights[name], units=measured_in, long_name=meaning)  # type: ignore[misc]
         taken = taken | {own}
     for name in cases.parameters:
         own = name if name not in taken else f"parameter_{name}"

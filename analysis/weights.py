@@ -1,6 +1,7 @@
 """Masses that vary: what the study file says of them as columns, and columns as changes of a rover.
 
-Columns are `mass/LINK` (kg), `com/LINK/x` (m, along the link's axes) and `payload/kg`, `payload/x` (m, in the root
+Columns are `mass/LINK` (kg), `com/LINK/x` (m, along the link's axes) and `payload/kg`, `payload/x` (m, in
+the root
 link's frame); LINK may be `robot`.
 """
 
@@ -70,7 +71,7 @@ def masses_of(weights: Mapping[str, float]) -> tuple[Masses, tuple[Payload, ...]
 
 def changes_of(weights: Mapping[str, Array]) -> Changes:
     """The masses of many cases."""
-    payload = ()
+    payload: tuple[tuple[Array, Array], ...] = ()
     if "payload/kg" in weights:
         payload = ((weights["payload/kg"], np.stack([weights[f"payload/{axis}"] for axis in AXES], axis=1)),)
     return Changes(

@@ -18,7 +18,7 @@ TOLD = 5
 
 
 def chances_object(found: list[Probability], indices: xr.Dataset | None) -> dict[str, Any]:
-    """`probabilities`, by event, and `sobol`: figure, then input, to first and total order with half-widths."""
+    """`probabilities` by event, and `sobol`: figure, then input, to both orders with half-widths."""
     out: dict[str, Any] = {}
     if found:
         out["probabilities"] = {

@@ -38,5 +38,5 @@ class Recipe:
     packages: Mapping[str, str] = field(default_factory=dict)
     skip_missing_includes: bool = False
     payload: tuple[Payload, ...] = ()
-    masses: Masses = Masses()
+    masses: Masses = field(default_factory=Masses)
     notes: tuple[str, ...] = ()

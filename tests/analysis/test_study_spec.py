@@ -55,7 +55,8 @@ def test_quantities(written: object, meant: object) -> None:
         (BASE + "cases: {n: -5}", "s.yaml: cases.n: should be greater than or equal to 1 (got -5)"),
         (
             BASE + "cases: {sampler: sobal, n: 4}",
-            "s.yaml: cases.sampler: should be 'sobol', 'random', 'saltelli', 'grid' or 'sensitivity' (got 'sobal')",
+            "s.yaml: cases.sampler: should be 'sobol', 'random', 'saltelli', 'grid' or 'sensitivity' "
+            "(got 'sobal')",
         ),
         (BASE + "case: {n: 4}", "s.yaml: case: unknown key; did you mean 'cases' or 'measures'?"),
         (BASE + "vary: {yaw: [0, 1]}", "s.yaml: vary.yaw: unknown key; did you mean 'yaw_deg' or 'y'?"),

@@ -1,4 +1,4 @@
-"""Distributions, masses that vary, Sobol indices and probabilities, against closed forms and the plain path."""
+"""Distributions, masses that vary, Sobol indices, probabilities: by closed forms and the plain path."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def test_indices_of_an_additive_model() -> None:
     gappy = sobol_indices(data, {"y": y})
     assert (int(gappy.blocks[0]), int(gappy.dropped[0])) == (2046, 2)
     y[::7] = np.nan
-    with pytest.raises(StudyError, match="too many blocks .* 2048 of 2048 blocks dropped"):
+    with pytest.raises(StudyError, match=r"too many blocks .* 2048 of 2048 blocks dropped"):
         sobol_indices(data, {"y": y})
     with pytest.raises(StudyError, match="is no result of a Saltelli sample"):
         sobol_indices(data.assign_attrs(sampler="sobol"))

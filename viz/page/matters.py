@@ -1,4 +1,4 @@
-"""What matters, for the panel of the study's page: Sobol indices with intervals, and probabilities in words."""
+"""What matters, for the panel of the study's page: Sobol indices with intervals, probabilities in words."""
 
 from __future__ import annotations
 

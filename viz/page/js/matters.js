@@ -1,39 +1,41 @@
 /* What matters: probabilities in words, and Sobol indices of a chosen figure as bars, in a dialog of its own. */
 import { element } from "./format.js";
 
-const WIDE = 320;
-const HIGH = 34;
-const LEFT = 150;
-const RIGHT = 110;
+const INDEX_WIDE = 320;
+const INDEX_HIGH = 34;
+const INDEX_LEFT = 150;
+const INDEX_RIGHT = 110;
 
-function shape(name, attributes) {
-  const node = document.createElementNS("http://www.w3.org/2000/svg", name);
+function indexShape(name, attributes) {
+  const maker = document.createElement("template");
+  maker.innerHTML = "<svg></svg>";
+  const node = document.createElementNS(maker.content.firstChild.namespaceURI, name);
   for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
   return node;
 }
 
-function text(words, x, y, anchor = "start") {
-  const node = shape("text", { x, y, "text-anchor": anchor, "font-size": 12, fill: "currentColor" });
+function indexText(words, x, y, anchor = "start") {
+  const node = indexShape("text", { x, y, "text-anchor": anchor, "font-size": 12, fill: "currentColor" });
   node.textContent = words;
   return node;
 }
 
 /* One row an input: first order above, total below, a line for each interval. */
-function bars(rows) {
-  const height = HIGH * rows.length + 24;
-  const at = (share) => LEFT + WIDE * Math.min(Math.max(share, 0), 1);
-  const chart = shape("svg", { width: LEFT + WIDE + RIGHT, height, role: "img", "aria-label": "Sobol indices, first and total order" });
+function indexBars(rows) {
+  const height = INDEX_HIGH * rows.length + 24;
+  const at = (share) => INDEX_LEFT + INDEX_WIDE * Math.min(Math.max(share, 0), 1);
+  const chart = indexShape("svg", { width: INDEX_LEFT + INDEX_WIDE + INDEX_RIGHT, height, role: "img", "aria-label": "Sobol indices, first and total order" });
   for (const tick of [0, 0.25, 0.5, 0.75, 1]) {
-    chart.append(shape("line", { x1: at(tick), x2: at(tick), y1: 0, y2: height - 20, stroke: "#d5dbe1" }), text(String(tick), at(tick), height - 6, "middle"));
+    chart.append(indexShape("line", { x1: at(tick), x2: at(tick), y1: 0, y2: height - 20, stroke: "#d5dbe1" }), indexText(String(tick), at(tick), height - 6, "middle"));
   }
   rows.forEach(([name, first, firstBy, total, totalBy], k) => {
-    const top = HIGH * k + 4;
-    chart.append(text(name.replace(/[_/]/g, " "), LEFT - 8, top + 17, "end"));
+    const top = INDEX_HIGH * k + 4;
+    chart.append(indexText(name.replace(/[_/]/g, " "), INDEX_LEFT - 8, top + 17, "end"));
     [[first, firstBy, "var(--load)", 0], [total, totalBy, "var(--limit)", 13]].forEach(([value, by, fill, down]) => {
       const y = top + down;
-      chart.append(shape("rect", { x: LEFT, y, width: at(value) - LEFT, height: 11, fill, opacity: 0.85 }));
-      chart.append(shape("line", { x1: at(value - by), x2: at(value + by), y1: y + 5.5, y2: y + 5.5, stroke: "#1d242c", "stroke-width": 1.5 }));
-      chart.append(text(`${value.toFixed(3)} ± ${by.toFixed(3)}`, LEFT + WIDE + 8, y + 10));
+      chart.append(indexShape("rect", { x: INDEX_LEFT, y, width: at(value) - INDEX_LEFT, height: 11, fill, opacity: 0.85 }));
+      chart.append(indexShape("line", { x1: at(value - by), x2: at(value + by), y1: y + 5.5, y2: y + 5.5, stroke: "#1d242c", "stroke-width": 1.5 }));
+      chart.append(indexText(`${value.toFixed(3)} ± ${by.toFixed(3)}`, INDEX_LEFT + INDEX_WIDE + 8, y + 10));
     });
   });
   return chart;
@@ -49,7 +51,7 @@ export function addMatters({ matters }, tools) {
     choice.id = "matters-figure";
     choice.replaceChildren(...matters.figures.map((figure, k) => new Option(figure.title, k)));
     const box = element("div");
-    const show = () => box.replaceChildren(bars(matters.figures[Number(choice.value)].rows));
+    const show = () => box.replaceChildren(indexBars(matters.figures[Number(choice.value)].rows));
     choice.addEventListener("change", show);
     const legend = element("div", "legend");
     legend.innerHTML = '<span style="--mark: var(--load)">first order: alone</span><span style="--mark: var(--limit)">total: with all it acts with</span>';
