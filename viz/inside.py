@@ -3,11 +3,13 @@
 A track is drawn as the model has it: the taut way around its circles, on which the ground bears under the
 wheels only. Where it is slack, it is drawn taut all the same, and the page says by how much it hangs.
 A spring between frames is a coil from end to end; one on a joint is a spiral about its axis, or where the
-joint slides a coil beside it, whose length says nothing but its change. Colours: from no force to the greatest.
+joint slides a coil beside it, whose length says nothing but its change. Colours go from no force to the
+greatest.
 """
 
 from __future__ import annotations
 
+import itertools
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -40,7 +42,7 @@ SHOWN = 0.12
 
 
 def tracks(rover: Rover, q: Array, span: float, terrain: Terrain | None = None) -> Surface:
-    """Every track as a belt, world; q (nv,) is the configuration. On `terrain` its grip has another colour."""
+    """Every track as a belt, world; it has another colour on `terrain`. q (nv,) is the configuration."""
     at = Kinematics(rover.model, rover.model.createData(), np.array(q)) if rover.tracks else None
     return joined([_belt(track, at, span, belt_width(rover, track, span), terrain) for track in rover.tracks])
 
@@ -56,7 +58,7 @@ def belt_points(track: Track, at: Kinematics, step: float) -> Array:
     """(p, 3) m, world: the taut way, closed, in pieces of `step` at most."""
     path = track.path(at)
     parts = [path[:1]]
-    for a, b in zip(path[:-1], path[1:], strict=True):
+    for a, b in itertools.pairwise(path):
         length = float(np.linalg.norm(b - a))
         if length > 1e-9:
             count = int(np.ceil(length / step))
@@ -88,20 +90,15 @@ def struts(rover: Rover, q: Array, span: float) -> Surface:
         return joined([])
     at = Kinematics(rover.model, rover.model.createData(), np.array(q))
     efforts = [abs(float(spring.effort(at))) for spring in rover.springs]
-    greatest = {
-        kind: max(
-            e for e, s in zip(efforts, rover.springs, strict=True) if isinstance(s, FrameSpring) is kind
-        )
-        for kind in {isinstance(spring, FrameSpring) for spring in rover.springs}
-    }
+    pushes = [isinstance(spring, FrameSpring) for spring in rover.springs]
     parts = []
-    for spring, effort in zip(rover.springs, efforts, strict=True):
+    for spring, effort, push in zip(rover.springs, efforts, pushes, strict=True):
+        greatest = max(other for other, like in zip(efforts, pushes, strict=True) if like == push)
         if isinstance(spring, FrameSpring):
             line = coil(spring.first.origin(at), spring.second.origin(at), COIL * span)
         else:
             line = _at_joint(rover, at, spring, span)
-        share = effort / max(greatest[isinstance(spring, FrameSpring)], 1e-12)
-        parts.append(rope(line, WIRE * span, _mix(share)))
+        parts.append(rope(line, WIRE * span, _mix(effort / max(greatest, 1e-12))))
     return joined(parts)
 
 
@@ -117,7 +114,7 @@ def coil(start: Array, end: Array, radius: float) -> Array:
 
 
 def slide_back(rover: Rover, joint: int, axis: Array) -> float:
-    """On which side of a sliding joint its spring is drawn: +1 or -1 along its axis, from its parent's mass."""
+    """Where the spring of a sliding joint is drawn: +1 or -1 along its axis, towards its parent's mass."""
     model = rover.model
     parent = model.parents[joint]
     away = model.jointPlacements[joint].translation - model.inertias[parent].lever

@@ -1,4 +1,4 @@
-"""A rover's springs and tracks as a page draws them: places on bodies, formulas of force, circles of belts."""
+"""Springs and tracks as a page draws them: places on bodies, formulas of force, circles of belts."""
 
 from __future__ import annotations
 

@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 
 
 def robot(rover: Rover, index: int = 0) -> tuple[dict[str, Any], bytes]:
-    """What the page poses (`nodes`, `wheels`, `springs`, `tracks`, `span`, `outline`), and Meshcat's commands that draw it.
+    """What the page poses, and Meshcat's commands that draw it.
+
+    The page poses `nodes`, `wheels`, `springs`, `tracks`; `span` and `outline` say how large the robot is.
 
     The commands write under `robot<index>`, so that a page can hold several.
     """

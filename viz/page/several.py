@@ -1,4 +1,4 @@
-"""Cases in which a wheel touches the ground in several places: their contacts' loads are not in the dataset."""
+"""Cases in which a wheel touches in several places: their contacts' loads are not in the dataset."""
 
 from __future__ import annotations
 

@@ -46,6 +46,7 @@ export class Marks {
     const told = Math.max(...totals.values()) - least >= apart * most;
     this.lightest = (told && [...totals].find(([, load]) => load === least)?.[0]) || null;
     const labels = this.polygon(bearing, com, limiting, span, apart);
+    this.arrows = bearing.map(([name, x, y, z, load]) => ({ name, at: [x, y, z], load }));
     for (const [name, x, y, z, load] of bearing) {
       const tall = (0.4 * span * load) / most;
       const light = name === this.lightest;

@@ -71,7 +71,7 @@ export class Picture {
     const first = !this.shown;
     this.shown = true;
     this.landscape.around(com[0], com[1], robot.span);
-    const drawn = this.inside.draw(robot, cases, chosen, (x, y) => ground.at(x, y)[0]);
+    const drawn = (this.drawn = this.inside.draw(robot, cases, chosen, (x, y) => ground.at(x, y)[0]));
     tellInside(drawn);
     const { middle, radius } = this.view.extent([robot.all]);
     this.view.reach = radius;
