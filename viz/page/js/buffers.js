@@ -14,6 +14,7 @@ export class Buffers {
     this.mesh = new THREE.Mesh(this.geometry, material);
     this.mesh.frustumCulled = false;
     this.mesh.castShadow = lit;
+    this.mesh.renderOrder = lit ? 0 : 10;
     parent.add(this.mesh);
     this.make(ROOM);
     this.used = 0;

@@ -11,27 +11,29 @@ const [COIL, WIRE, TURNS, SHOWN] = [0.022, 0.0045, 9, 0.12];
 export class Inside {
   constructor(view) {
     this.THREE = view.THREE;
-    this.buffers = new Buffers(view.THREE, view.viewer.scene, { lit: true });
+    [this.coils, this.bands] = [0, 1].map(() => new Buffers(view.THREE, view.viewer.scene, { lit: true }));
   }
 
   /** Draw a posed robot's; `cases.at` gives joints, `height(x, y)` the ground. Returns what was drawn:
    * {springs: [{name, unit, force, ends}], belts: [{name, slack, points, grips}]}. */
   draw(robot, cases, i, height) {
-    this.buffers.begin();
+    for (const buffers of [this.coils, this.bands]) buffers.begin();
     const springs = robot.springs.map((spring) => this.springOf(robot, spring, cases, i));
     for (const { line, force, unit } of springs) {
       const most = Math.max(...springs.filter((other) => other.unit === unit).map((other) => Math.abs(other.force)), 1e-12);
       const share = Math.abs(force) / most;
-      this.buffers.rope(line, WIRE * robot.span, WEAK.map((weak, k) => weak + share * (STRONG[k] - weak)));
+      this.coils.rope(line, WIRE * robot.span, WEAK.map((weak, k) => weak + share * (STRONG[k] - weak)));
     }
     const belts = robot.tracks.map((track) => this.beltOf(robot, track, height)).filter(Boolean);
-    this.buffers.end();
+    for (const buffers of [this.coils, this.bands]) buffers.end();
     return { springs, belts };
   }
 
   clear() {
-    this.buffers.begin();
-    this.buffers.end();
+    for (const buffers of [this.coils, this.bands]) {
+      buffers.begin();
+      buffers.end();
+    }
   }
 
   world(robot, { node, point }) {
@@ -100,8 +102,8 @@ export class Inside {
     rows.slice(1).forEach((row, k) => {
       for (let n = 0; n < 4; n++) {
         const colour = grips[k] && grips[k + 1] ? GRIP : RUBBER;
-        this.buffers.triangle(rows[k][n], rows[k][n + 1], row[n], colour);
-        this.buffers.triangle(rows[k][n + 1], row[n + 1], row[n], colour);
+        this.bands.triangle(rows[k][n], rows[k][n + 1], row[n], colour);
+        this.bands.triangle(rows[k][n + 1], row[n + 1], row[n], colour);
       }
     });
     return { name: track.name, slack: track.length - cable.length, points: points.map((p) => p.toArray()), grips };

@@ -28,6 +28,7 @@ export class Picture {
     this.view.buttons(byId("views"), (name) => this.view.look(name, 2.1));
     this.view.toggle(byId("views"), "See through", false, (on) => {
       this.through = on;
+      this.view.seeThrough(this.inside.bands.mesh, on);
       for (const robot of this.robots) if (robot) this.view.seeThrough(robot.all, on);
     });
     this.coloured = byId("coloured");

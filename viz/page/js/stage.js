@@ -28,6 +28,7 @@ export class Stage {
     this.view.buttons(byId("views"), (name) => this.look(name));
     this.view.toggle(byId("views"), "See through", false, (on) => {
       this.through = on;
+      this.view.seeThrough(this.inside.bands.mesh, on);
       for (const robot of this.robots) if (robot) this.view.seeThrough(robot.all, on);
     });
     this.view.groundAt = (x, y) => this.ground.at(x, y)[0];

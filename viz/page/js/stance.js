@@ -60,7 +60,7 @@ function draw(stance, segments) {
   const view = new Viewer3d(byId("pane"));
   view.replay(commandsOf(segments.get("commands")));
   view.shadowless(["loads", "support", "com"]);
-  const [robot, region] = ["rover", "support/region"].map((path) => view.node(path).object);
+  const [robot, belts, region] = ["rover", "tracks", "support/region"].map((path) => view.node(path).object);
   view.node("ground").object.traverse((thing) => (thing.castShadow = false));
   const { middle, radius } = view.extent([robot]);
   view.reach = radius;
@@ -69,7 +69,7 @@ function draw(stance, segments) {
   const look = (name) => view.look(name, 2.05, wide() ? -0.09 : 0);
   view.buttons(byId("views"), look);
   look("Iso");
-  view.toggle(byId("views"), "See through", false, (on) => view.seeThrough(robot, on));
+  view.toggle(byId("views"), "See through", false, (on) => [robot, belts].forEach((thing) => view.seeThrough(thing, on)));
   if (!byId("region").hidden) {
     view.toggle(byId("views"), "Region", true, (on) => {
       region.visible = on;

@@ -66,12 +66,13 @@ export class Viewer3d {
     for (const command of commands) this.viewer.handle_command_bytearray(command);
   }
 
-  /** Nodes under a path that cast no shadow (marks). */
+  /** Nodes under a path that cast no shadow and are drawn last (marks). */
   shadowless(paths) {
     for (const path of paths) {
       this.node(path).object.traverse((thing) => {
         thing.castShadow = false;
         thing.receiveShadow = false;
+        thing.renderOrder = 10;
       });
     }
   }
@@ -140,7 +141,7 @@ export class Viewer3d {
    * is in `reach` (m about the target) is cut; `aside` moves the picture by parts of the width. */
   look(name, distance = 2.5, aside = 0) {
     const [x, y, z] = VIEWS[name];
-    const length = Math.hypot(x, y, z) / Math.max(distance * this.span, 2.5 * this.reach);
+    const length = Math.hypot(x, y, z) / Math.max(distance * this.span, 2.2 * this.reach);
     const turned = this.yaw + (name === "Iso" ? 2.75 : 0);
     const [c, s] = [Math.cos(turned), Math.sin(turned)];
     const away = cameraAxes([(c * x - s * y) / length, (s * x + c * y) / length, z / length]);
