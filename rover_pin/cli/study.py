@@ -124,6 +124,7 @@ def _save_page(asked: Study, data: xr.Dataset, slopes: xr.Dataset | None, html: 
         viz.save_sensitivity_page(slopes, html)
         return
     each = len(asked) <= DRAWN and asked.plan.job.cases.questions.parameters
-    stances = {case: asked.stance(case) for case in (range(len(asked)) if each else viz.worst_cases(data))}
     ready = asked.plan
+    cases = range(len(asked)) if each else viz.exact_cases(data, ready.rover, ready.job.terrain)
+    stances = {case: asked.stance(case) for case in cases}
     viz.save_study_page(data, html, rover=ready.rover, terrain=ready.job.terrain, stances=stances)
