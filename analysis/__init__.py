@@ -1,6 +1,8 @@
 """Studies: many cases of one question, run by an engine, answered as one labelled Dataset."""
 
+from rover_pin.analysis.chances import probabilities
 from rover_pin.analysis.comparison import Comparison, Design, compare, paired
+from rover_pin.analysis.indices import sobol_indices
 from rover_pin.analysis.mobility import mobility
 from rover_pin.analysis.search import search
 from rover_pin.analysis.sensitivity import sensitivity
@@ -14,7 +16,9 @@ __all__ = [
     "compare",
     "mobility",
     "paired",
+    "probabilities",
     "search",
     "sensitivity",
     "slopes",
+    "sobol_indices",
 ]

@@ -56,6 +56,7 @@ def attributes(study: Study, found: Found) -> dict[str, Any]:
         "terrain_digest": ready.job.terrain.digest,
         "sampler": study.spec.cases.sampler,
         "seed": study.spec.cases.seed,
+        **({"inputs": "\n".join(ready.job.cases.inputs)} if study.spec.cases.sampler == "saltelli" else {}),
         "study": study.text,
         "study_file": "" if study.file is None else str(study.file),
         "study_folder": str(study.folder),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from rover_pin.analysis.quantities import number
+from rover_pin.analysis.finite import number
 from rover_pin.errors import InputError, StudyError, nearest
 
 GRAVITIES: Mapping[str, float] = {

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from rover_pin.viz.page.compare import save_comparison_page as save_comparison_page
     from rover_pin.viz.page.search import save_search_page as save_search_page
     from rover_pin.viz.page.sensitivity import save_sensitivity_page as save_sensitivity_page
+    from rover_pin.viz.page.several import exact_cases as exact_cases
     from rover_pin.viz.page.study import save_study_page as save_study_page
     from rover_pin.viz.page.study import worst_cases as worst_cases
     from rover_pin.viz.plots import plot_distributions as plot_distributions
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 
 _HOME = {
     "draw": "scene",
+    "exact_cases": "page.several",
     "motion_page": "motion",
     "plot_distributions": "plots",
     "plot_map": "plots",

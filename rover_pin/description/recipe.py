@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from rover_pin.description.masses import Masses
+
 Payload = tuple[float, tuple[float, float, float] | str]
 """A mass [kg] and where: a place in the root link's frame [m], or the link at whose origin it sits."""
 
@@ -24,6 +26,7 @@ class Recipe:
         packages: package name -> folder, as given.
         skip_missing_includes: as given.
         payload: masses put on it.
+        masses: other ones than the texts say.
         notes: what expanding told.
     """
 
@@ -36,4 +39,5 @@ class Recipe:
     packages: Mapping[str, str] = field(default_factory=dict)
     skip_missing_includes: bool = False
     payload: tuple[Payload, ...] = ()
+    masses: Masses = field(default_factory=Masses)
     notes: tuple[str, ...] = ()

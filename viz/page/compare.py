@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 
 READING = (
     "Figures: distributions with medians; case against case (above the line the second has more); "
-    "differences with the interval of their median; where they lie (purple: the second is better, orange: worse)."
+    "differences with the interval of their median; where they lie (purple: the second is better, "
+    "orange: worse)."
 )
 NAMED = 60
 """Case numbers that the page names."""
