@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rover_pin.analysis.quantities import number
+from rover_pin.analysis.finite import number
 from rover_pin.errors import StudyError
 
 if TYPE_CHECKING:

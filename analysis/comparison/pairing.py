@@ -41,7 +41,7 @@ def _differing(first: xr.Dataset, other: xr.Dataset) -> str:
     for column in PLACE:
         if not np.array_equal(first[column].values, other[column].values):
             return f"{column} differs"
-    for column in first.data_vars:
+    for column in map(str, first.data_vars):
         varied = [column in data and data[column].attrs.get("varied") for data in (first, other)]
         if all(varied) and not np.array_equal(first[column].values, other[column].values):
             return f"{column} differs"
