@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from rover_pin.viz.page.search import save_search_page as save_search_page
     from rover_pin.viz.page.sensitivity import save_sensitivity_page as save_sensitivity_page
     from rover_pin.viz.page.several import exact_cases as exact_cases
+    from rover_pin.viz.page.measured import worst_cases as worst_cases
     from rover_pin.viz.page.study import save_study_page as save_study_page
-    from rover_pin.viz.page.study import worst_cases as worst_cases
     from rover_pin.viz.plots import plot_distributions as plot_distributions
     from rover_pin.viz.plots import plot_map as plot_map
     from rover_pin.viz.scene import draw as draw
@@ -54,7 +54,7 @@ _HOME = {
     "save_study_page": "page.study",
     "serve": "serve",
     "show": "show",
-    "worst_cases": "page.study",
+    "worst_cases": "page.measured",
 }
 
 __all__ = sorted(_HOME)

@@ -20,7 +20,8 @@ from rover_pin.viz.page import pack as pack_module
 from rover_pin.viz.page.columns import decoded, numbers, planes, unplaned, words
 from rover_pin.viz.page.html import HERE
 from rover_pin.viz.page.raster import ground_raster
-from rover_pin.viz.page.study import main_measure, study_page, worst_cases
+from rover_pin.viz.page.measured import main_measure, worst_cases
+from rover_pin.viz.page.study import study_page
 
 FLOATS = st.lists(st.floats(-1e6, 1e6) | st.sampled_from([np.nan, np.inf, -np.inf]), min_size=1, max_size=60)
 

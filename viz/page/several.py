@@ -42,7 +42,7 @@ def exact_cases(dataset: xr.Dataset, rover: Rover, terrain: Terrain, worst: int 
         terrain: the study's.
         worst: how many of the worst.
     """
-    from rover_pin.viz.page.study import worst_cases
+    from rover_pin.viz.page.measured import worst_cases
 
     ranked = worst_cases(dataset, LOOKED_AT)
     if any("parameter" in values.attrs for values in dataset.data_vars.values()):

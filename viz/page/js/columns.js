@@ -1,8 +1,7 @@
 /* The study's columns, decoded when they are first asked for. */
+import { MINUS, NOTHING, PLUS } from "./codes.js";
 import { orderOf } from "./order.js";
 import { Spread } from "./spread.js";
-
-const [NOTHING, PLUS, MINUS] = [65535, 65534, 65533];
 
 function unplane(bytes, size) {
   const count = bytes.length / size;
@@ -19,7 +18,7 @@ export function unplaned(bytes, type) {
   return new type(unplane(bytes, type.BYTES_PER_ELEMENT));
 }
 
-function decoded({ low, step }, code) {
+function valueOf({ low, step }, code) {
   if (code < MINUS) return low + step * code;
   return { [NOTHING]: NaN, [PLUS]: Infinity, [MINUS]: -Infinity }[code];
 }
@@ -57,7 +56,7 @@ export class Cases {
       if (about.kind === "f32") return unplaned(this.segments.get(`column/${name}`), Float32Array);
       const codes = this.codes(name);
       const values = new Float64Array(codes.length);
-      for (let i = 0; i < codes.length; i++) values[i] = codes[i] < MINUS ? about.low + about.step * codes[i] : decoded(about, codes[i]);
+      for (let i = 0; i < codes.length; i++) values[i] = codes[i] < MINUS ? about.low + about.step * codes[i] : valueOf(about, codes[i]);
       return values;
     });
   }
@@ -69,7 +68,7 @@ export class Cases {
     if (about.kind === "f32") return this.column(name)[i];
     const bytes = this.segments.get(`column/${name}`);
     const code = bytes[i] | (bytes[this.count + i] << 8);
-    return about.kind === "words" ? about.words[code] : decoded(about, code);
+    return about.kind === "words" ? about.words[code] : valueOf(about, code);
   }
 
   wordNumber(name, word) {

@@ -2,7 +2,7 @@
 import { sized } from "./canvas.js";
 import { element, fixed } from "./format.js";
 
-const [LINE, LEFT] = [13, 34];
+const [LINE, NAMES] = [13, 34];
 
 export class Loads {
   constructor(holder, state) {
@@ -22,14 +22,14 @@ export class Loads {
     const most = 1.05 * Math.max(...quantiles.map((q) => q[4]).filter(Number.isFinite), 1e-9);
     const canvas = element("canvas");
     const context = sized(canvas, width, LINE * wheels.length + 14);
-    const x = (value) => LEFT + (value / most) * (width - LEFT - 4);
+    const x = (value) => NAMES + (value / most) * (width - NAMES - 4);
     context.font = "11px system-ui, sans-serif";
     wheels.forEach((wheel, k) => {
       const y = k * LINE + LINE / 2;
       const q = quantiles[k];
       context.fillStyle = "#1d242c";
       context.textAlign = "left";
-      context.fillText(wheel, 0, y + 4, LEFT - 4);
+      context.fillText(wheel, 0, y + 4, NAMES - 4);
       if (!Number.isFinite(q[2])) return;
       context.fillStyle = "#cfd6dc";
       context.fillRect(x(q[0]), y - 1.5, x(q[4]) - x(q[0]), 3);
@@ -45,7 +45,7 @@ export class Loads {
     });
     context.fillStyle = "#5d6873";
     context.textAlign = "left";
-    context.fillText("0", LEFT, LINE * wheels.length + 11);
+    context.fillText("0", NAMES, LINE * wheels.length + 11);
     context.textAlign = "right";
     context.fillText(fixed(most, most < 10 ? 1 : 0), width - 2, LINE * wheels.length + 11);
     this.holder.append(canvas);

@@ -134,14 +134,14 @@ export class Plots {
       context.fillRect(Math.min(width - 2.5, Math.max(0, x(here) - 1.25)), 0, 2.5, height);
     }
     ends[0].textContent = number(low * measure.factor);
-    ends[1].textContent = range ? `${said(range, measure)} ×` : "";
+    ends[1].textContent = range ? `${rangeSaid(range, measure)} ×` : "";
     ends[1].hidden = !range;
     ends[2].textContent = number(high * measure.factor);
   }
 }
 
 /** A range in words. */
-export function said([low, high], measure) {
+export function rangeSaid([low, high], measure) {
   const [from, to] = [low, high].map((end) => number(end * measure.factor));
   if (low === -Infinity) return `up to ${to}`;
   return high === Infinity ? `from ${from}` : `${from} to ${to}`;

@@ -16,10 +16,6 @@ export class Selection {
     return this.active ? this.mask : null;
   }
 
-  has(i) {
-    return this.mask[i] === 1;
-  }
-
   /** Keep a measure within [low, high] (SI); null takes the range away. */
   range(name, ends) {
     if (ends) this.ranges.set(name, ends);
@@ -56,6 +52,11 @@ export class Selection {
     this.count = 0;
     const picked = words.map((word) => !this.statuses.size || this.statuses.has(word));
     for (let i = 0; i < mask.length; i++) this.count += mask[i] &= picked[status[i]] ? 1 : 0;
+  }
+
+  /** The first of an order that passes; null where none does. */
+  first({ order }) {
+    return order.find((i) => this.mask[i]) ?? null;
   }
 
   /** Those of an order (`Cases.order`) that pass; `reversed` turns those with a value round. */

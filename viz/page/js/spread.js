@@ -1,6 +1,5 @@
 /* How a column's finite values spread over the settled cases: quantiles, percentiles, bins. */
-
-const FINITE = 65533; // codes below it are finite values
+import { MINUS } from "./codes.js";
 
 export class Spread {
   /** Takes the column's name, and a mask of the cases that count (null: all). */
@@ -17,7 +16,7 @@ export class Spread {
     const tally = new Uint32Array(65536);
     for (let i = 0; i < codes.length; i++) if (counts(i)) tally[codes[i]] += 1;
     const [values, below] = [[], [0]];
-    for (let code = 0; code < FINITE; code++) {
+    for (let code = 0; code < MINUS; code++) {
       if (!tally[code]) continue;
       values.push(about.low + about.step * code);
       below.push(below[below.length - 1] + tally[code]);

@@ -30,7 +30,7 @@ export class Table {
     Object.assign(this, { holder, state, sort: null, kept: null });
     this.columns = tableColumns(state.cases);
     this.table = element("table", "rows");
-    this.table.style.minWidth = `${62 * this.columns.length}px`;
+    this.table.style.minWidth = `${74 * this.columns.length}px`;
     this.spacer = element("div", "spacer", null, this.table);
     holder.replaceChildren(this.spacer);
     holder.addEventListener("scroll", () => this.rows());
