@@ -16,6 +16,7 @@ function said(state, i) {
   if (why && why !== "None") parts.push(why);
   const limit = limitingOf(cases, measure.name, i);
   if (limit && cases.settled(i)) parts.push(`${measure.title.toLowerCase()} limited by ${limit}`);
+  if (!state.selection.mask[i]) parts.push("left out by the filter");
   return parts.join(" · ");
 }
 

@@ -37,6 +37,11 @@ export function paintContours(context, ground, width, colour) {
   context.stroke(ground.contours());
 }
 
+/** A canvas's context that draws on the processor: a path as long as the contours takes a software GPU ten seconds. */
+export function plainContext(canvas) {
+  return canvas.getContext("2d", { willReadFrequently: true });
+}
+
 export class MapView {
   constructor(canvas, tip, state) {
     Object.assign(this, { canvas, tip, state });
@@ -67,7 +72,7 @@ export class MapView {
     const { ground, cells, values, scale } = this.state;
     const { w, h, k, ratio, px, py } = this.view;
     if (w < 60 || h < 60) return;
-    const context = this.canvas.getContext("2d");
+    const context = plainContext(this.canvas);
     const frame = [px(ground.x0), py(ground.y1), k * (ground.x1 - ground.x0), k * (ground.y1 - ground.y0)];
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, w, h);
@@ -76,13 +81,32 @@ export class MapView {
     context.save();
     context.setTransform(ratio * k, 0, 0, -ratio * k, ratio * px(0), ratio * py(0));
     paintCells(context, cells, values, scale, { pixel: 1 / k });
-    paintContours(context, ground, 0.7 / k, "rgba(40, 48, 56, 0.36)");
+    this.contours(context);
     this.footprint(context, 1 / k);
     context.restore();
     context.strokeStyle = "#9aa6b2";
     context.strokeRect(...frame);
     this.axes(context);
     if (!this.state.selection.count) message(context, "No case passes the filter: clear it to see them again.", w / 2, h / 2);
+  }
+
+  /** The contours, drawn once a size. */
+  contours(context) {
+    const { width, height } = this.canvas;
+    const transform = context.getTransform();
+    const key = `${width} ${height} ${transform}`;
+    if (this.lines?.key !== key) {
+      const canvas = document.createElement("canvas");
+      Object.assign(canvas, { width, height });
+      const own = plainContext(canvas);
+      own.setTransform(transform);
+      paintContours(own, this.state.ground, 0.7 / this.view.k, "rgba(40, 48, 56, 0.36)");
+      this.lines = { key, canvas };
+    }
+    context.save();
+    context.resetTransform();
+    context.drawImage(this.lines.canvas, 0, 0);
+    context.restore();
   }
 
   axes(context) {

@@ -9,7 +9,9 @@ const LEAST = 4; // px of a drag; less is a click, which takes the range away
 export class Plots {
   constructor(holder, state) {
     Object.assign(this, { holder, state });
-    this.rows = state.cases.measures.map((measure) => this.row(measure));
+    const one = (measure) => state.cases.spread(measure.name).least === state.cases.spread(measure.name).most;
+    this.alike = state.cases.measures.filter(one);
+    this.rows = state.cases.measures.filter((measure) => !one(measure)).map((measure) => this.row(measure));
     this.foot = element("div", "foot dim");
     holder.replaceChildren(...this.rows.map((row) => row.box), this.foot);
     this.respread();
@@ -97,9 +99,15 @@ export class Plots {
   draw() {
     const width = this.holder.clientWidth - 2 * 10;
     if (width < 40) return;
-    const height = Math.max(14, Math.min(40, (this.holder.clientHeight - 44) / this.rows.length - 34));
+    const height = Math.max(14, Math.min(40, (this.holder.clientHeight - 44 - 14 * this.alike.length) / Math.max(1, this.rows.length) - 34));
     for (const row of this.rows) this.histogram(row, width, height);
-    this.foot.textContent = this.state.selection.active ? "grey behind: all cases, drawn to the same height" : "drag on a histogram to keep a range of it";
+    const how = this.state.selection.active ? "grey behind: all cases, drawn to the same height" : "drag on a histogram to keep a range of it";
+    this.foot.replaceChildren(element("div", "", how), ...this.alike.map((measure) => element("div", "", this.said(measure))));
+  }
+
+  /* A measure with one value has no histogram. */
+  said({ name, title, unit, factor }) {
+    return `${title}: ${number(factor * this.state.cases.spread(name).least)} ${unit} in every settled case`;
   }
 
   histogram(row, width, height) {

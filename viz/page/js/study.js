@@ -84,6 +84,7 @@ function deeds(state, { map, table, heading, plots, loads, sweep, picture }) {
     table.renew();
     if (!done) return;
     picture.paint();
+    chosen();
     state.remember();
   };
   state.filter = (name, ends, done = true) => {

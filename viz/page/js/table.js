@@ -2,18 +2,19 @@
 import { element, fixed, number } from "./format.js";
 
 const [ROW, TALLEST] = [25, 8e6]; // px: a row; what every browser lays out. A longer table scrolls by shares.
+const WIDE = 82; // px: a column
 
 /** What the table shows, in order. */
 export function tableColumns(cases) {
   const angle = 180 / Math.PI;
   const place = [
-    { name: "x_m", title: "x", unit: "m", show: (v) => fixed(v, 2) },
-    { name: "y_m", title: "y", unit: "m", show: (v) => fixed(v, 2) },
-    { name: "yaw_rad", title: "Yaw", unit: "°", show: (v) => fixed(v * angle, 0) },
+    { name: "x_m", title: "x", unit: "m", wide: 56, show: (v) => fixed(v, 2) },
+    { name: "y_m", title: "y", unit: "m", wide: 56, show: (v) => fixed(v, 2) },
+    { name: "yaw_rad", title: "Yaw", unit: "°", wide: 46, show: (v) => fixed(v * angle, 0) },
   ];
   const asked = cases.header.varied.map((name) => ({ name, title: titled(name), unit: "", show: shown }));
   const measures = cases.measures.map((m) => ({ ...m, show: (v) => number(v * m.factor) }));
-  return [{ name: "case", title: "Case", unit: "", show: String }, ...place, { name: "status", title: "Status", unit: "", show: shown }, ...asked, ...measures];
+  return [{ name: "case", title: "Case", unit: "", wide: 68, show: String }, ...place, { name: "status", title: "Status", unit: "", wide: 84, show: shown }, ...asked, ...measures];
 }
 
 function titled(name) {
@@ -30,7 +31,7 @@ export class Table {
     Object.assign(this, { holder, state, sort: null, kept: null });
     this.columns = tableColumns(state.cases);
     this.table = element("table", "rows");
-    this.table.style.minWidth = `${74 * this.columns.length}px`;
+    this.table.style.minWidth = `${this.columns.reduce((sum, { wide }) => sum + (wide ?? WIDE), 0)}px`;
     this.spacer = element("div", "spacer", null, this.table);
     holder.replaceChildren(this.spacer);
     holder.addEventListener("scroll", () => this.rows());
@@ -68,6 +69,7 @@ export class Table {
       button.title = column.better ? `Better: ${column.better}` : "Sort by it";
       button.addEventListener("click", () => this.sortBy(column.name));
       const cell = element("th", "", null, button, element("small", "", column.unit));
+      cell.style.width = `${column.wide ?? WIDE}px`;
       if (arrow) cell.setAttribute("aria-sort", this.sort?.reversed ? "descending" : "ascending");
       head.append(cell);
     }
