@@ -5,5 +5,15 @@ from rover_pin.analysis.search import search
 from rover_pin.analysis.sensitivity import sensitivity
 from rover_pin.analysis.slopes import slopes
 from rover_pin.analysis.study import Study
+from rover_pin.analysis.traverse import LargestStep, largest_step, traverse
 
-__all__ = ["Study", "mobility", "search", "sensitivity", "slopes"]
+__all__ = [
+    "LargestStep",
+    "Study",
+    "largest_step",
+    "mobility",
+    "search",
+    "sensitivity",
+    "slopes",
+    "traverse",
+]

@@ -27,6 +27,9 @@ if TYPE_CHECKING:
     from rover_pin.viz.show import show as show
     from rover_pin.viz.slopes import plot_slopes as plot_slopes
     from rover_pin.viz.slopes import save_slopes_html as save_slopes_html
+    from rover_pin.viz.traverse import plot_traverse as plot_traverse
+    from rover_pin.viz.traverse import save_traverse_html as save_traverse_html
+    from rover_pin.viz.traverse import save_traverse_plot as save_traverse_plot
 
 _HOME = {
     "draw": "scene",
@@ -36,6 +39,7 @@ _HOME = {
     "plot_mobility": "mobility",
     "plot_run": "motion_plots",
     "plot_slopes": "slopes",
+    "plot_traverse": "traverse",
     "save_html": "show",
     "save_motion_html": "motion",
     "save_motion_png": "motion",
@@ -44,6 +48,8 @@ _HOME = {
     "save_sensitivity_page": "page.sensitivity",
     "save_slopes_html": "slopes",
     "save_study_page": "page.study",
+    "save_traverse_html": "traverse",
+    "save_traverse_plot": "traverse",
     "serve": "serve",
     "show": "show",
     "worst_cases": "page.study",

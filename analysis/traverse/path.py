@@ -44,11 +44,11 @@ class Place:
     yaw: float
     turning: bool = False
 
-    def between(self, other: Place) -> Place:
-        """The middle of two."""
+    def towards(self, other: Place, share: float) -> Place:
+        """A share of the way to another."""
         mine, its = ((p.way, p.x, p.y, p.yaw) for p in (self, other))
-        way, x, y, yaw = (0.5 * (a + b) for a, b in zip(mine, its, strict=True))
-        return Place(way, x, y, yaw, other.turning)
+        way, x, y, yaw = (a + share * (b - a) for a, b in zip(mine, its, strict=True))
+        return Place(way, x, y, yaw, self.turning)
 
 
 def waypoints(path: Waypoints) -> Array:

@@ -14,6 +14,7 @@ from rover_pin.analysis.traverse.result import as_dataset
 from rover_pin.analysis.traverse.step import Step, ask
 from rover_pin.errors import InputError
 from rover_pin.stability.report import chosen
+from rover_pin.statics.stance import Status
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,6 +30,11 @@ TURNED = 0.2
 
 DEPTH = 12
 """Halvings of a step where something changes at once."""
+
+NOT_FOUND = str(Status.NO_CONVERGENCE)
+
+ASIDE = (0.1, 0.3)
+"""Where else to ask if a place has no answer, as shares of the way back to the one before."""
 
 
 def traverse(
@@ -127,15 +133,37 @@ def driven(
 def _onto(
     follower: Follower, last: Step, place: Place, friction: float | None, depth: int
 ) -> Iterator[Step]:
-    """From one place to another, by their middle first where the two differ much."""
+    """From one place to another, by their middle first where the two differ much.
+
+    A middle where the solver finds no stance is passed over; a place of the path itself is asked beside.
+    """
     there = ask(follower.at(place, last.stood), friction)
-    if depth and _differ(last, there):
-        for each in _onto(follower, last, last.stood.place.between(place), friction, depth - 1):
+    if there.limit == NOT_FOUND and depth == DEPTH:
+        there = _beside(follower, last, there, friction)
+    if there.limit == NOT_FOUND:
+        if depth == DEPTH:
+            yield there
+        return
+    if depth and last.limit != NOT_FOUND and _differ(last, there):
+        before = last
+        for each in _onto(follower, last, place.towards(last.stood.place, 0.5), friction, depth - 1):
             yield each
             last = each
-        yield from _onto(follower, last, place, friction, depth - 1)
-    else:
-        yield there
+        if last is not before:
+            rest = list(_onto(follower, last, place, friction, depth - 1))
+            yield from rest or [there]
+            return
+    yield there
+
+
+def _beside(follower: Follower, last: Step, failed: Step, friction: float | None) -> Step:
+    """A place a little before one that has no answer, where that has one."""
+    for share in ASIDE:
+        place = failed.stood.place.towards(last.stood.place, share)
+        there = ask(follower.at(place, last.stood), friction)
+        if there.limit != NOT_FOUND:
+            return there
+    return failed
 
 
 def _differ(a: Step, b: Step) -> bool:
