@@ -292,17 +292,16 @@ def traverse_run(dataset: xr.Dataset, rover: Rover, terrain: Terrain) -> Run:
 def _configurations(data: xr.Dataset, rover: Rover) -> Array:
     """(steps, nv) q; drives turned by the way, forwards as far as the heading lies along it."""
     way = np.asarray(data["way_m"].values, dtype=np.float64)
-    names = [str(name) for name in data["joint"].values]
     forward = math.cos(float(data.attrs["crab_rad"]))
-    drives = [(wheel.drive, forward / wheel.radius) for wheel in rover.wheels if wheel.drive is not None]
-    found = []
-    for k, gone in enumerate(way):
-        joints = dict(zip(names, data["joint_rad"].values[k].tolist(), strict=True))
-        joints.update({drive: turned * float(gone) for drive, turned in drives})
-        position = [float(data[name].values[k]) for name in ("x_m", "y_m", "z_m")]
-        rpy = [float(data[name].values[k]) for name in ("roll_rad", "pitch_rad", "yaw_rad")]
-        found.append(rover.configuration(joints, position, rpy))
-    return np.array(found)
+    q = np.tile(np.array(rover.neutral), (len(way), 1))
+    for column, name in enumerate(("x_m", "y_m", "z_m", "yaw_rad", "pitch_rad", "roll_rad")):
+        q[:, column] = data[name].values
+    for name in data["joint"].values.tolist():
+        q[:, rover.column[name]] = data["joint_rad"].sel(joint=name).values
+    for wheel in rover.wheels:
+        if wheel.drive is not None:
+            q[:, rover.column[wheel.drive]] = way * forward / wheel.radius
+    return q
 
 
 def _actions(data: xr.Dataset) -> Sequence[str]:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from rover_pin.stability.measure import Measure
     from rover_pin.terrain import Terrain
 
-STEP, WHEEL, JOINT = "step", "wheel", "joint"
+STEP, WHEEL, JOINT, AXIS = "step", "wheel", "joint", "axis"
 
 
 def as_dataset(
@@ -81,7 +81,7 @@ def _places(
             values,
             {"units": "rad", "long_name": "places of joints that drive no wheel", "in_m": lengths},
         ),
-        "wheel_m": ((STEP, WHEEL, "axis"), _centres(rover, steps), _about("centres of wheels, world", "m")),
+        "wheel_m": ((STEP, WHEEL, AXIS), _centres(rover, steps), _about("centres of wheels, world", "m")),
         "load_n": ((STEP, WHEEL), np.array(loads), _about("load against gravity", "N")),
         "status": _told([str(s.status) for s in stances], "how it stands"),
         "followed": _told(
@@ -99,6 +99,13 @@ def _centres(rover: Rover, steps: Sequence[Step]) -> Array:
             pin.forwardKinematics(rover.model, data, np.array(one.stood.stance.configuration))
             found[k] = [data.oMi[shape.joint].act(np.array(shape.center)) for shape in rover.shapes]
     return found
+
+
+def _at_home(rover: Rover) -> Array:
+    """(wheels, 3) m."""
+    data = rover.model.createData()
+    pin.forwardKinematics(rover.model, data, np.array(rover.neutral))
+    return np.array([data.oMi[shape.joint].act(np.array(shape.center)) for shape in rover.shapes])
 
 
 def _asked(rover: Rover, steps: Sequence[Step]) -> dict[str, Any]:
@@ -129,6 +136,8 @@ def _asked(rover: Rover, steps: Sequence[Step]) -> dict[str, Any]:
         "limit": _told([s.limit for s in steps], "what stops it here; empty where nothing"),
         "why": _told([s.why for s in steps], "in words"),
         "limiting": _told([s.limiting for s in steps], "wheel, joint or link"),
+        "radius_m": (WHEEL, [s.ring + s.tread for s in rover.shapes], _about("of wheels and feet", "m")),
+        "home_m": ((WHEEL, AXIS), _at_home(rover), _about("centres in the root link's frame at home", "m")),
         "friction_declared": (WHEEL, declared, _about("coefficient that the shape declares", "1")),
         "effort_nm": (WHEEL, efforts, _about("the drive's effort; NaN where it has none", "N m")),
     }
