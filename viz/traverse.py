@@ -40,9 +40,9 @@ GHOSTS = 5
 def plot_traverse(dataset: xr.Dataset) -> Figure:
     """Loads, friction, torque, margins and posture of `rover_pin.analysis.traverse` along the path.
 
-    Beneath is the terrain's profile on the path with the paths of the wheels' centres, seen from the side,
-    heights and lengths on one scale where there is room. Dashed lines are limits; the red line is where the
-    rover stops.
+    Beneath is the terrain's profile on the path (filled) and under the wheels (lines) with the paths of the
+    wheels' centres, seen from the side, heights and lengths on one scale. Dashed lines are limits; the red
+    line is where the rover stops.
 
     Returns:
         A matplotlib Figure; `figure.savefig("traverse.svg")` writes it.
@@ -95,7 +95,9 @@ def _stretched(dataset: xr.Dataset) -> Array:
 
 def _loads(axis: Axes, dataset: xr.Dataset, way: Array) -> None:
     for (colour, dash), name in zip(_colours(dataset), dataset["wheel"].values, strict=True):
-        axis.plot(way, dataset["load_n"].sel(wheel=name).values, dash, color=colour, lw=1.0, label=_word(name))
+        axis.plot(
+            way, dataset["load_n"].sel(wheel=name).values, dash, color=colour, lw=1.0, label=_word(name)
+        )
     axis.set_ylabel("load [N]")
     axis.set_ylim(bottom=0.0)
 
@@ -164,11 +166,17 @@ def _profile(axis: Axes, dataset: xr.Dataset, way: Array) -> None:
     legs = _directions(dataset)
     ahead = np.einsum("swi,si->sw", _offsets(dataset), legs)
     centres = np.asarray(dataset["wheel_m"].values, dtype=np.float64)
+    under = np.asarray(dataset["under_m"].values, dtype=np.float64)
+    floor = min(floor, float(np.nanmin(under, initial=floor)))
+    for j in range(under.shape[1]):
+        axis.plot(way + ahead[:, j], under[:, j], color="#8d8474", lw=0.5)
     axis.fill_between(way, ground, floor - 0.02, color="#d9cdb8", lw=0)
     axis.plot(way, ground, color="#8d8474", lw=0.8)
     radius = dataset["radius_m"].values
     standing = np.flatnonzero(np.isfinite(centres[:, :, 2]).all(axis=1))
-    for k in standing[np.unique(np.linspace(0, len(standing) - 1, GHOSTS).astype(int))] if len(standing) else []:
+    for k in (
+        standing[np.unique(np.linspace(0, len(standing) - 1, GHOSTS).astype(int))] if len(standing) else []
+    ):
         for (colour, _), x, z, r in zip(
             _colours(dataset), way[k] + ahead[k], centres[k, :, 2], radius, strict=True
         ):

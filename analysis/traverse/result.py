@@ -49,22 +49,22 @@ def as_dataset(
     )
 
 
-def _places(
-    rover: Rover, terrain: Terrain, steps: Sequence[Step], joints: Sequence[str]
-) -> dict[str, Any]:
+def _places(rover: Rover, terrain: Terrain, steps: Sequence[Step], joints: Sequence[str]) -> dict[str, Any]:
     """Where it is and how it stands; what is not known of a place without a stance is NaN."""
     at = [one.stood.place for one in steps]
     stances = [one.stood.stance for one in steps]
     known = np.array([stance.settled for stance in stances])
     pose = np.array([[s.position[2], s.rpy[0], s.rpy[1]] for s in stances])
     pose[~known] = np.nan
-    turns = {name: turning for name, turning in zip(rover.dof_names, rover.turning, strict=True)}
+    turns = dict(zip(rover.dof_names, rover.turning, strict=True))
     values = np.array([[s.joints[name] for name in joints] for s in stances]).reshape(len(steps), len(joints))
     values[~known] = np.nan
     loads = [
         [s.loads.get(shape.name, 0.0) if s.settled else math.nan for shape in rover.shapes] for s in stances
     ]
     x, y = np.array([p.x for p in at]), np.array([p.y for p in at])
+    centres = _centres(rover, steps)
+    under = np.array(terrain.height(centres[..., 0], centres[..., 1]))
     lengths = ", ".join(name for name in joints if not turns[name])
     return {
         "way_m": _told([p.way for p in at], "driven since the first waypoint", "m"),
@@ -81,11 +81,13 @@ def _places(
             values,
             {"units": "rad", "long_name": "places of joints that drive no wheel", "in_m": lengths},
         ),
-        "wheel_m": ((STEP, WHEEL, AXIS), _centres(rover, steps), _about("centres of wheels, world", "m")),
+        "wheel_m": ((STEP, WHEEL, AXIS), centres, _about("centres of wheels, world", "m")),
+        "under_m": ((STEP, WHEEL), under, _about("height of the ground under wheels", "m")),
         "load_n": ((STEP, WHEEL), np.array(loads), _about("load against gravity", "N")),
         "status": _told([str(s.status) for s in stances], "how it stands"),
         "followed": _told(
-            [int(one.stood.followed) for one in steps], "1 where found from the stance before, 0 where lowered"
+            [int(one.stood.followed) for one in steps],
+            "1 where found from the stance before, 0 where lowered",
         ),
     }
 
@@ -111,7 +113,10 @@ def _at_home(rover: Rover) -> Array:
 def _asked(rover: Rover, steps: Sequence[Step]) -> dict[str, Any]:
     """Friction and torque, and what stops it."""
     torques = [
-        [math.nan if one.torque is None else one.torque.edges.get(shape.name, math.nan) for shape in rover.shapes]
+        [
+            math.nan if one.torque is None else one.torque.edges.get(shape.name, math.nan)
+            for shape in rover.shapes
+        ]
         for one in steps
     ]
     declared = [float(shape.friction) for shape in rover.shapes]
@@ -143,9 +148,7 @@ def _asked(rover: Rover, steps: Sequence[Step]) -> dict[str, Any]:
     }
 
 
-def _margins(
-    steps: Sequence[Step], measures: Sequence[Measure], friction: float | None
-) -> dict[str, Any]:
+def _margins(steps: Sequence[Step], measures: Sequence[Measure], friction: float | None) -> dict[str, Any]:
     """Every further measure; -inf or inf where it fails closed, NaN where the rover does not stand."""
     found: dict[str, Any] = {}
     for measure in measures:

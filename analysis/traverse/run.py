@@ -121,18 +121,17 @@ def driven(
         if progress is not None:
             progress(done, len(along))
         if last is None:
-            last = ask(follower.at(place, None), friction)
-            yield last
-            continue
-        for last in _onto(follower, last, place, friction, DEPTH):
-            yield last
+            steps = iter([ask(follower.at(place, None), friction)])
+        else:
+            steps = _onto(follower, last, place, friction, DEPTH)
+        for one in steps:
+            last = one
+            yield one
     if progress is not None:
         progress(len(along), len(along))
 
 
-def _onto(
-    follower: Follower, last: Step, place: Place, friction: float | None, depth: int
-) -> Iterator[Step]:
+def _onto(follower: Follower, last: Step, place: Place, friction: float | None, depth: int) -> Iterator[Step]:
     """From one place to another, by their middle first where the two differ much.
 
     A middle where the solver finds no stance is passed over; a place of the path itself is asked beside.

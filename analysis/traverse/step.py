@@ -39,7 +39,7 @@ class Step:
         torque: of `torque`; None where it does not stand or has no driven wheel.
         share: least largest share of the drives' efforts [-]; NaN where no drive has one, or no answer.
         share_at: the drive's wheel that has it.
-        limit: what stops it here: `friction`, `torque`, `tip`, `belly contact` or a status; empty where nothing.
+        limit: what stops it here: `friction`, `torque`, `tip`, `belly contact` or a status; else empty.
         why: in words.
         limiting: wheel, joint or link.
     """
@@ -90,8 +90,8 @@ def ask(stood: Stood, friction: float | None) -> Step:
 def effort_share(rover: Rover, problem: FrictionProblem) -> tuple[float, str]:
     """The least, over forces within friction, of the largest |torque| / effort of a drive, and whose it is.
 
-    Efforts are the URDF's; drives without one give any torque. inf where the solver had no answer, which fails
-    closed; NaN where no drive that touches has an effort.
+    Efforts are the URDF's; drives without one give any torque. inf where the solver had no answer, which
+    fails closed; NaN where no drive that touches has an effort.
     """
     efforts = {
         wheel.name: float(rover.effort[rover.column[wheel.drive]])

@@ -24,5 +24,18 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
-for command in (robots, info, settle, study, search, view, init, mobility, slopes, traverse, reproduce, bench):
+for command in (
+    robots,
+    info,
+    settle,
+    study,
+    search,
+    view,
+    init,
+    mobility,
+    slopes,
+    traverse,
+    reproduce,
+    bench,
+):
     app.command()(command)

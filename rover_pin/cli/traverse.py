@@ -57,9 +57,14 @@ def traverse(
     reverse: Annotated[bool, typer.Option("--reverse", help="Drive backwards.")] = False,
     until_stop: Annotated[bool, typer.Option("--until-stop", help="End where it stops.")] = False,
     largest_step: Annotated[
-        bool, typer.Option("--largest-step", help="The largest step it climbs; step:HEIGHT,X is the highest tried.")
+        bool,
+        typer.Option(
+            "--largest-step", help="The largest step it climbs; step:HEIGHT,X is the highest tried."
+        ),
     ] = False,
-    measures: Annotated[str, typer.Option(help="Margins along the path, by commas.", metavar="NAMES")] = "tip",
+    measures: Annotated[
+        str, typer.Option(help="Margins along the path, by commas.", metavar="NAMES")
+    ] = "tip",
     friction: Annotated[str | None, typer.Option(help="Friction under every wheel.", metavar="MU")] = None,
     posture: Annotated[str | None, typer.Option(help="Posture.", metavar="NAME|clearance=M")] = None,
     joint: Annotated[
@@ -111,7 +116,9 @@ def traverse(
     if ground is None:
         return _largest(rover, terrain, spacing, path, how, json)
     names = [name.strip() for name in measures.split(",") if name.strip()]
-    return _drive(rover, ground, path or "", {**how, "measures": names, "until_stop": until_stop}, files, json)
+    return _drive(
+        rover, ground, path or "", {**how, "measures": names, "until_stop": until_stop}, files, json
+    )
 
 
 def _fits(largest: bool, path: str | None, terrain: str | None, files: dict[str, Path | None]) -> None:

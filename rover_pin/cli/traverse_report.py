@@ -32,7 +32,7 @@ def traverse_object(data: xr.Dataset) -> dict[str, Any]:
         **{name: about[name] for name in ABOUT},
         "passed": bool(about["passed"]),
         "stop": stop,
-        "worst": {name: found for name, found in worst(data).items()},
+        "worst": worst(data),
         "steps": [_step(data, k) for k in range(data.sizes["step"])],
     }
 
@@ -112,9 +112,15 @@ def print_traverse(data: xr.Dataset) -> None:
             *(f"{entry[key] + 0.0:.3f}" for key in ("way_m", "x_m", "y_m")),
         )
     print_table(table)
-    ends = [math.degrees(float(f(data[f"{name}_rad"]))) for name in ("roll", "pitch") for f in (np.nanmin, np.nanmax)] if (
-        data["status"].values.astype(str) == "settled"
-    ).any() else []
+    ends = (
+        [
+            math.degrees(float(f(data[f"{name}_rad"])))
+            for name in ("roll", "pitch")
+            for f in (np.nanmin, np.nanmax)
+        ]
+        if (data["status"].values.astype(str) == "settled").any()
+        else []
+    )
     if ends:
         line(f"roll {ends[0]:.2f} to {ends[1]:.2f} deg, pitch {ends[2]:.2f} to {ends[3]:.2f} deg")
     if about["passed"]:
