@@ -14,6 +14,7 @@ import xarray as xr
 
 from rover_pin.analysis.provenance import git_state, versions
 from rover_pin.analysis.traverse.path import total
+from rover_pin.payload import told as payload_told
 from rover_pin.stability.measure import Standing
 
 if TYPE_CHECKING:
@@ -191,6 +192,7 @@ def _attributes(
         "joints": ", ".join(f"{name}={value!r}" for name, value in (how["joints"] or {}).items()),
         "locks": ", ".join(how["locks"]),
         "gravity": float(how["gravity"]),
+        "payload": payload_told(rover.recipe.payload),
         "friction": "as declared" if how["friction"] is None else float(how["friction"]),
         "terrain": terrain.label,
         "terrain_digest": terrain.digest,

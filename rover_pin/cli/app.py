@@ -5,6 +5,7 @@ from __future__ import annotations
 import typer
 
 from rover_pin.cli.bench import bench
+from rover_pin.cli.compare import compare
 from rover_pin.cli.info import info
 from rover_pin.cli.init import init
 from rover_pin.cli.mobility import mobility
@@ -29,6 +30,7 @@ for command in (
     info,
     settle,
     study,
+    compare,
     search,
     view,
     init,

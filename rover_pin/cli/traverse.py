@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from rover_pin.cli.options import (
+    Gravity,
     HeightOffset,
     HeightScale,
     Json,
     Packages,
     Parameters,
+    Payload,
     Robot,
     Sidecar,
     SkipIncludes,
@@ -72,8 +74,8 @@ def traverse(
     ] = None,
     lock: Annotated[list[str] | None, typer.Option(help="Lock a passive joint.", metavar="NAME")] = None,
     param: Parameters = None,
-    gravity: Annotated[str, typer.Option(help="m/s2, or earth, moon, mars.")] = "earth",
-    payload: Annotated[list[str] | None, typer.Option(help="Mass on the base.", metavar="KG@X,Y,Z")] = None,
+    gravity: Gravity = "earth",
+    payload: Payload = None,
     out: Annotated[
         Path | None, typer.Option("--out", "-o", help="Write the places, netCDF.", metavar="OUT.nc")
     ] = None,

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from rover_pin.rover import Rover
 
 ABOUT = (
-    "robot", "terrain", "path", "length_m", "step_m", "crab_rad", "friction", "gravity", "posture",
+    "robot", "terrain", "path", "length_m", "step_m", "crab_rad", "friction", "gravity", "payload", "posture",
 )  # fmt: skip
 
 

@@ -161,6 +161,7 @@ class Controller:
             return self._rest(self.supervisor.report(fault=str(error)))
 
     def _move(self, execution: Execution, at: Instant, loads: Mapping[str, float] | None) -> Cycle:
+        before = self.supervisor.order.state
         command = execution.command(at)
         watch = self._watch(execution, at, command.nominal, loads)
         solution = execution.solve(at, command, (watch,))
@@ -171,7 +172,8 @@ class Controller:
         look = watch.look(solution.velocity)
         stuck = "" if look.crossed else self._stuck(execution, at)
         order = self.supervisor.report(crossed=look.crossed, infeasible=stuck)
-        velocity = solution.velocity if order.state in (State.RUNNING, State.ROLLING_BACK) else self._still
+        # Where a second reminder turns the way, what was solved still leads forward.
+        velocity = solution.velocity if order.state is before else self._still
         return Cycle(order, name, velocity, execution.grip, look, solution)
 
     def _stuck(self, execution: Execution, at: Instant) -> str:

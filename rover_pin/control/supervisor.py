@@ -3,8 +3,15 @@
 Rules of the HIT-MRII paper, section 7: a threshold reached, or a projection that is infeasible, halts the
 motion and reminds the operator. An answer ends the action under way and runs the next. No answer in time
 rolls the mode's actions back, the last first, to where it began; so does a second reminder within one mode,
-at once. The count of reminders starts anew with every mode. Beyond the paper: a fault (a sensor, a refusal)
-holds the rover where it is.
+at once. The count of reminders starts anew with every mode.
+
+Beyond the paper:
+- A fault (a sensor, a refusal, a clock that runs back) holds the rover where it is, whatever it was doing.
+- An action that was interrupted is undone too, first of all; how far it had come is its executor's business.
+- "Where it began" is where the current mode began: modes that are done stay done.
+- The rollback is the last word: what is reached on the way back is noted and reminds nobody. A projection
+  that is infeasible on the way back holds, as there is nowhere left to go.
+- An answer counts if it is given before the deadline, not at it.
 """
 
 from __future__ import annotations
@@ -78,7 +85,7 @@ class Event:
     """A line of the trace.
 
     Attributes:
-        time: on the supervisor's clock [s].
+        time: on the supervisor's clock [s]; NaN where it has told none yet.
         mode: name of the mode.
         state: entered or kept.
         action: name of the action concerned, empty where there is none.
@@ -97,7 +104,9 @@ class Supervisor:
 
     Args:
         clock: tells the time [s]; it does not run back.
-        operator: is told a reminder, again and again until the deadline, and says whether there is an answer.
+        operator: is told a reminder when it is made and at every report until the deadline, and says whether
+            there is an answer. The rover halts for one report at least. Of a second reminder in a mode the
+            operator is told once, and not asked: the rollback is ordered already.
         patience: s that an answer may take.
 
     Attributes:
@@ -115,13 +124,15 @@ class Supervisor:
         self._clock = clock
         self._operator = operator
         self._patience = patience
-        self._time = -math.inf
+        self._time = math.nan
         self.trace: list[Event] = []
         self._mode = ""
         self._actions: tuple[str, ...] = ()
         self._done: list[int] = []
         self._reminders = 0
         self._reminder: Reminder | None = None
+        self._answered = False
+        self._noted = ""
         self._order = Order(State.DONE)
 
     @property
@@ -132,19 +143,22 @@ class Supervisor:
     def begin(self, mode: str, actions: Sequence[str]) -> Order:
         """Start a mode: its first action, no reminders yet.
 
+        It may be begun from `held` as well: whoever begins it says that the rover may move again.
+
         Args:
             mode: its name.
             actions: names of its actions, in order.
 
         Raises:
-            InputError: no actions, or another mode still under way.
+            InputError: no actions, one word in place of a list, or another mode still under way.
         """
+        _refuse_word(mode, actions)
         if not actions:
             raise InputError("has no actions", element=mode)
         if self._order.state not in AT_REST:
             raise InputError("cannot begin", element=mode, cure=f"{self._mode} is still {self._order.state}")
         self._mode, self._actions = mode, tuple(actions)
-        self._done, self._reminders, self._reminder = [], 0, None
+        self._done, self._reminders, self._reminder, self._answered = [], 0, None, False
         fault = self._look_at_clock()
         if fault:
             return self._enter(State.HELD, None, fault)
@@ -164,9 +178,14 @@ class Supervisor:
             crossed: motion constraints that have reached their thresholds.
             infeasible: which rows of the projection fight, empty where it was solved.
             finished: whether the action to run or undo has reached its end.
-            fault: what is wrong with the rover or its sensors, empty where nothing is.
+            fault: what is wrong with the rover or its sensors, empty where nothing is. It goes before all
+                else, and holds a rover whose mode has ended too.
+
+        Raises:
+            InputError: one word in place of a list.
         """
-        if self._order.state in AT_REST:
+        _refuse_word("crossed", crossed)
+        if self._order.state is State.HELD or (self._order.state in AT_REST and not fault):
             return self._order
         time_fault = self._look_at_clock()
         if fault or time_fault:
@@ -186,34 +205,48 @@ class Supervisor:
         return self._next("finished")
 
     def _while_halted(self) -> Order:
-        reminder = self._reminder
-        if reminder is None or self._time >= reminder.deadline:
-            return self._undo_last("no answer in time")
-        if not self._operator(reminder):
-            return self._order
-        if self._look_at_clock() or self._time >= reminder.deadline:
-            return self._undo_last("the answer came too late")
-        return self._next("answered")
+        if not self._answered:
+            if self._reminder is None or self._time >= self._reminder.deadline:
+                return self._undo_last("no answer in time")
+            self._ask(self._reminder)
+        return self._next("answered") if self._answered else self._order
+
+    def _ask(self, reminder: Reminder) -> None:
+        """Tell the operator and hear the answer; the operator may take time, so the clock is read again."""
+        answer = self._operator(reminder)
+        fault = self._look_at_clock()
+        if fault:
+            self._enter(State.HELD, None, fault)
+        elif answer and self._time >= reminder.deadline:
+            self._undo_last("the answer came too late")
+        else:
+            self._answered = bool(answer)
 
     def _while_rolling_back(self, infeasible: str, reason: str, finished: bool) -> Order:
         if infeasible:
             return self._enter(State.HELD, None, f"cannot roll back: {infeasible}")
-        if reason:
+        if reason and reason != self._noted:
             self._note(self._order.action, f"reached while rolling back: {reason}")
+        self._noted = reason
         if not finished:
             return self._order
         return self._undo_last("undone")
 
     def _remind(self, reason: str) -> Order:
         self._reminders += 1
-        if self._reminders >= MOST_REMINDERS:
-            return self._undo_last(f"reminder {self._reminders} within one mode: {reason}")
+        last = self._reminders >= MOST_REMINDERS
         place = self._order.action
         action = "" if place is None else self._actions[place]
-        deadline = self._time + self._patience
+        deadline = self._time if last else self._time + self._patience
         self._reminder = Reminder(self._mode, action, reason, self._reminders, deadline)
+        if last:
+            order = self._undo_last(f"reminder {self._reminders} within one mode: {reason}")
+            self._operator(self._reminder)
+            return order
+        self._answered = False
         self._order = Order(State.HALTED, None, reason)
         self._note(place, reason)
+        self._ask(self._reminder)
         return self._order
 
     def _next(self, reason: str) -> Order:
@@ -234,6 +267,7 @@ class Supervisor:
 
     def _enter(self, state: State, place: int | None, reason: str) -> Order:
         self._order = Order(state, place, reason)
+        self._noted = ""
         self._note(place, reason)
         return self._order
 
@@ -250,3 +284,8 @@ class Supervisor:
             return f"the clock ran back from {self._time:g} to {now:g} s"
         self._time = now
         return ""
+
+
+def _refuse_word(element: str, names: Sequence[str]) -> None:
+    if isinstance(names, str):
+        raise InputError("must be a list of names", element=element, value=names, cure=f"give [{names!r}]")

@@ -132,6 +132,19 @@ def test_a_load_constraint_halts(hit):
     assert rig.controller.supervisor.order.reason == "load_difference"
 
 
+def test_a_second_reminder_turns_the_way_without_one_more_step_forward(hit):
+    rig = Rig(hit, thresholds(load_difference=100.0), at=0.3)
+    loads = {"LF": 500.0, "LM": 300.0, "LB": 300.0, "RF": 370.0, "RM": 370.0, "RB": 370.0}
+    rig.answers = True
+    goals = [chassis_lifting(SIDES, SPEEDS, goal).actions for goal in (0.4, 0.45)]
+    rig.controller.begin(Mode(CHASSIS_LIFTING, goals[0] + goals[1]), rig.at.q)
+    while rig.controller.supervisor.order.state is not State.ROLLING_BACK:
+        cycle = rig.controller.cycle(rig.at, loads=loads)
+    assert cycle.order.reason == "reminder 2 within one mode: load_difference"
+    assert np.any(cycle.solution.velocity)
+    assert not np.any(cycle.velocity)
+
+
 def test_modes_run_and_undo(hit):
     rig = Rig(hit, at=0.3, dt=0.05)
     start = np.array(rig.at.q)

@@ -1,42 +1,13 @@
-"""The paper's rules as traces, word for word, and what must hold whatever is reported."""
+"""The paper's rules as traces, word for word."""
+
+import dataclasses
+import math
 
 import pytest
-from hypothesis import settings
-from hypothesis import strategies as st
-from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
+from supervised import Bench, begun
 
-from rover_pin.control.supervisor import AT_REST, State, Supervisor
+from rover_pin.control.supervisor import State, Supervisor
 from rover_pin.errors import InputError
-
-ACTIONS = ("raise", "roll", "lower")
-
-
-class Bench:
-    """A supervisor on a clock of its own, and an operator who answers when told to."""
-
-    def __init__(self, patience=10.0):
-        self.now = 0.0
-        self.answers = False
-        self.told = []
-        self.supervisor = Supervisor(lambda: self.now, self._operator, patience)
-
-    def _operator(self, reminder):
-        self.told.append((reminder.action, reminder.reason, reminder.count, reminder.deadline))
-        return self.answers
-
-    def report(self, after=1.0, **told):
-        self.now += after
-        return self.supervisor.report(**told)
-
-    @property
-    def trace(self):
-        return [(e.time, str(e.state), e.action, e.reason) for e in self.supervisor.trace]
-
-
-def begun(**options):
-    bench = Bench(**options)
-    bench.supervisor.begin("chassis_lifting", ACTIONS)
-    return bench
 
 
 def test_a_mode_that_goes_through():
@@ -64,7 +35,7 @@ def test_an_answer_ends_the_action_and_runs_the_next():
         (1.0, "halted", "raise", "wheelbase"),
         (3.0, "running", "roll", "answered"),
     ]
-    assert bench.told == [("raise", "wheelbase", 1, 11.0)] * 2
+    assert bench.told == [("raise", "wheelbase", 1, 11.0)] * 3
 
 
 def test_no_answer_in_time_rolls_back():
@@ -94,17 +65,46 @@ def test_an_answer_after_the_deadline_does_not_count():
     assert bench.trace[-1] == (11.0, "rolling back", "raise", "no answer in time")
 
 
-def test_an_operator_who_is_slow_to_answer():
+def test_the_operator_is_told_when_the_rover_halts():
+    """Even where the next report comes after the deadline; an answer given by then counts."""
     bench = begun()
     bench.report(crossed=["height"])
+    assert bench.told == [("raise", "height", 1, 11.0)]
+    assert bench.report(after=60.0).reason == "no answer in time"
+    prompt = begun()
+    prompt.answers = True
+    assert prompt.report(crossed=["height"]).state is State.HALTED
+    prompt.answers = False
+    assert prompt.report(after=60.0).action == 1
+    assert prompt.trace[1:] == [(1.0, "halted", "raise", "height"), (61.0, "running", "roll", "answered")]
 
-    def slow(reminder):
-        bench.now += 20.0
-        return True
 
-    bench.supervisor._operator = slow
-    assert bench.report().state is State.ROLLING_BACK
-    assert bench.trace[-1] == (22.0, "rolling back", "raise", "the answer came too late")
+@pytest.mark.parametrize("asked_before", [False, True])
+def test_an_operator_who_is_slow_to_answer(asked_before):
+    bench = begun()
+    if asked_before:
+        bench.report(crossed=["height"])
+    bench.answers, bench.thinks = True, 20.0
+    told = {} if asked_before else {"crossed": ["height"]}
+    assert bench.report(**told).state is State.ROLLING_BACK
+    assert bench.trace[-1] == (bench.now, "rolling back", "raise", "the answer came too late")
+
+
+@pytest.mark.parametrize("asked_before", [False, True])
+@pytest.mark.parametrize("answers", [False, True])
+@pytest.mark.parametrize(
+    ("thinks", "words"), [(-0.5, "the clock ran back from "), (math.nan, "the clock tells nan")]
+)
+def test_a_clock_that_fails_while_the_operator_is_asked(asked_before, answers, thinks, words):
+    """Nothing may be undone by a clock that cannot be: the rover is held."""
+    bench = begun()
+    if asked_before:
+        bench.report(crossed=["height"])
+    bench.answers, bench.thinks = answers, thinks
+    order = bench.report(**({} if asked_before else {"crossed": ["height"]}))
+    assert (order.state, order.action) == (State.HELD, None)
+    assert bench.trace[-1][1:3] == ("held", "")
+    assert bench.trace[-1][3].startswith(words)
 
 
 def test_a_second_reminder_within_one_mode_forces_the_rollback():
@@ -117,7 +117,28 @@ def test_a_second_reminder_within_one_mode_forces_the_rollback():
         (2.0, "running", "roll", "answered"),
         (3.0, "rolling back", "roll", "reminder 2 within one mode: these cannot hold together: a; b"),
     ]
-    assert len(bench.told) == 1
+    assert bench.told == [("raise", "wheelbase", 1, 11.0)] * 2 + [
+        ("roll", "these cannot hold together: a; b", 2, 3.0)
+    ]
+    assert bench.report(finished=True).action == 0
+
+
+def test_a_rollback_ends_where_the_mode_began():
+    bench = begun()
+    for _ in range(3):
+        bench.report(finished=True)
+    bench.supervisor.begin("rolling", ["out", "back"])
+    bench.report(crossed=["height"])
+    bench.report(after=10.0)
+    assert bench.report(finished=True).state is State.RETURNED
+    assert bench.trace[3:] == [
+        (3.0, "done", "", "finished"),
+        (3.0, "running", "out", "begins"),
+        (4.0, "halted", "out", "height"),
+        (14.0, "rolling back", "out", "no answer in time"),
+        (15.0, "returned", "", "undone"),
+    ]
+    assert [event.mode for event in bench.supervisor.trace] == ["chassis_lifting"] * 4 + ["rolling"] * 4
 
 
 def test_the_count_starts_anew_with_every_mode():
@@ -146,8 +167,28 @@ def test_crossings_while_rolling_back_are_told_only():
     bench.report(after=10.0)
     assert bench.report(crossed=["height"]).state is State.ROLLING_BACK
     assert bench.trace[-1] == (12.0, "rolling back", "raise", "reached while rolling back: height")
+    assert len(bench.told) == 1
     assert bench.report(infeasible="a; b").state is State.HELD
     assert bench.trace[-1] == (13.0, "held", "", "cannot roll back: a; b")
+
+
+def test_what_lasts_while_rolling_back_is_told_once():
+    bench = begun()
+    bench.report(finished=True)
+    bench.report(crossed=["height"])
+    bench.report(after=10.0)
+    for crossed in (["height"], ["height"], ["height", "length"], ["height", "length"], [], ["height"]):
+        bench.report(crossed=crossed)
+    bench.report(finished=True)
+    bench.report(crossed=["height"])
+    assert bench.trace[3:] == [
+        (12.0, "rolling back", "roll", "no answer in time"),
+        (13.0, "rolling back", "roll", "reached while rolling back: height"),
+        (15.0, "rolling back", "roll", "reached while rolling back: height, length"),
+        (18.0, "rolling back", "roll", "reached while rolling back: height"),
+        (19.0, "rolling back", "raise", "undone"),
+        (20.0, "rolling back", "raise", "reached while rolling back: height"),
+    ]
 
 
 @pytest.mark.parametrize("before", [{}, {"crossed": ["height"]}])
@@ -157,6 +198,64 @@ def test_a_fault_holds(before):
     assert bench.report(fault="the sensor of L_act tells nan for its place").state is State.HELD
     assert bench.trace[-1][1:] == ("held", "", "the sensor of L_act tells nan for its place")
     assert bench.report(finished=True).state is State.HELD
+    assert bench.report(fault="another").reason == "the sensor of L_act tells nan for its place"
+
+
+def test_a_fault_goes_before_all_else():
+    bench = begun()
+    order = bench.report(crossed=["height"], infeasible="a; b", finished=True, fault="no power")
+    assert (order.state, order.reason) == (State.HELD, "no power")
+    assert bench.told == []
+
+
+def test_a_fault_while_rolling_back():
+    bench = begun()
+    bench.report(crossed=["height"])
+    bench.report(after=10.0)
+    assert bench.report(fault="no power", finished=True).state is State.HELD
+    assert bench.trace[-1] == (12.0, "held", "", "no power")
+
+
+def test_a_fault_at_the_end_holds_too():
+    """A mode that is done or returned has not put an end to faults."""
+    done = begun()
+    for _ in range(3):
+        done.report(finished=True)
+    assert done.report(fault="no power").state is State.HELD
+    returned = begun()
+    returned.report(crossed=["height"])
+    returned.report(after=10.0)
+    assert returned.report(finished=True).state is State.RETURNED
+    assert returned.report(fault="no power").state is State.HELD
+    assert done.trace[-2:] == [(3.0, "done", "", "finished"), (4.0, "held", "", "no power")]
+    assert returned.trace[-2:] == [(12.0, "returned", "", "undone"), (13.0, "held", "", "no power")]
+
+
+def test_a_mode_may_begin_from_held():
+    bench = begun()
+    bench.report(fault="no power")
+    assert bench.supervisor.begin("rolling", ["roll"]).state is State.RUNNING
+
+
+def test_reached_and_finished_at_once_reminds():
+    bench = begun()
+    assert bench.report(crossed=["height"], infeasible="a; b", finished=True).state is State.HALTED
+    assert bench.trace[-1] == (1.0, "halted", "raise", "a; b")
+
+
+def test_the_trace_is_frozen():
+    event = begun().supervisor.trace[0]
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        event.reason = "another"
+
+
+def test_a_clock_that_never_told_a_time():
+    bench = Bench()
+    bench.now = math.nan
+    assert bench.supervisor.begin("rolling", ["roll"]).state is State.HELD
+    (event,) = bench.supervisor.trace
+    assert (str(event.state), event.reason) == ("held", "the clock tells nan")
+    assert math.isnan(event.time)
 
 
 @pytest.mark.parametrize(("time", "words"), [(float("nan"), "the clock tells nan"),
@@ -175,68 +274,10 @@ def test_refusals():
         bench.supervisor.begin("rolling", ["roll"])
     with pytest.raises(InputError, match="rolling: has no actions"):
         Bench().supervisor.begin("rolling", [])
-    with pytest.raises(InputError, match="patience: must be a finite number of seconds above 0"):
-        Supervisor(lambda: 0.0, lambda _: False, 0.0)
-
-
-class AnyStory(RuleBasedStateMachine):
-    """Whatever happens: no motion while halted, two reminders at most, back in reverse order, an end."""
-
-    def __init__(self):
-        super().__init__()
-        self.bench = begun(patience=5.0)
-        self.reminders = 0
-
-    def _tell(self, **told):
-        before = self.bench.supervisor.order.state
-        self.bench.report(after=self.wait, **told)
-        if before is State.RUNNING and (told.get("crossed") or told.get("infeasible")):
-            self.reminders += 1
-
-    wait = 1.0
-
-    @rule(wait=st.floats(0.0, 6.0))
-    def goes_on(self, wait):
-        self.wait = wait
-        self._tell()
-
-    @rule()
-    def finishes(self):
-        self._tell(finished=True)
-
-    @rule()
-    def crosses(self):
-        self._tell(crossed=["height"])
-
-    @rule(answers=st.booleans())
-    def operator(self, answers):
-        self.bench.answers = answers
-
-    @invariant()
-    def two_reminders_at_most(self):
-        assert self.reminders <= 2
-        assert {told[2] for told in self.bench.told} <= {1}
-
-    @invariant()
-    def nothing_moves_at_rest(self):
-        order = self.bench.supervisor.order
-        moves = order.state in (State.RUNNING, State.ROLLING_BACK)
-        assert (order.action is not None) == moves
-
-    @invariant()
-    def back_the_way_it_came(self):
-        events = self.bench.supervisor.trace
-        went = [e.action for e in events if e.state is State.RUNNING]
-        back = [e.action for e in events if e.state is State.ROLLING_BACK and "reached" not in e.reason]
-        assert back == went[::-1][: len(back)]
-        if self.bench.supervisor.order.state is State.RETURNED:
-            assert len(back) == len(went)
-
-    @invariant()
-    def an_end_is_an_end(self):
-        states = [event.state for event in self.bench.supervisor.trace]
-        assert not any(state in AT_REST for state in states[:-1])
-
-
-AnyStory.TestCase.settings = settings(max_examples=60, stateful_step_count=25, deadline=None)
-TestAnyStory = AnyStory.TestCase
+    with pytest.raises(InputError, match=r"rolling: must be a list of names \(got 'roll'\); give \['roll'\]"):
+        Bench().supervisor.begin("rolling", "roll")
+    with pytest.raises(InputError, match=r"crossed: must be a list of names \(got 'height'\)"):
+        bench.report(crossed="height")
+    for patience in (0.0, -1.0, math.nan, math.inf):
+        with pytest.raises(InputError, match="patience: must be a finite number of seconds above 0"):
+            Supervisor(lambda: 0.0, lambda _: False, patience)
