@@ -19,8 +19,8 @@ from rover_pin.errors import StudyError
 from rover_pin.viz.page import pack as pack_module
 from rover_pin.viz.page.columns import decoded, numbers, planes, unplaned, words
 from rover_pin.viz.page.html import HERE
-from rover_pin.viz.page.raster import ground_raster
 from rover_pin.viz.page.measured import main_measure, worst_cases
+from rover_pin.viz.page.raster import ground_raster
 from rover_pin.viz.page.study import study_page
 
 FLOATS = st.lists(st.floats(-1e6, 1e6) | st.sampled_from([np.nan, np.inf, -np.inf]), min_size=1, max_size=60)
@@ -186,7 +186,8 @@ const ground = new Ground(header.ground, parts.get("ground"));
 const out = { tip: [...cases.column("tip")].map(String), polygon: [...cases.column("polygon")].map(String),
   torque: [...cases.column("torque")].map(String),
   status: Array.from({length: cases.count}, (_, i) => cases.at("status", i)),
-  order: [...cases.order("tip")], low: [...cases.order("torque")], median: cases.quantile("tip", 0.5),
+  order: [...cases.order("tip").order], low: [...cases.order("torque").order],
+  median: cases.quantile("tip", 0.5),
   heights: [[0.3, 0.2], [-1.1, 2.0]].map(([x, y]) => ground.at(x, y)) };
 console.log(JSON.stringify(out));
 """)

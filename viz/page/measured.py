@@ -65,7 +65,7 @@ def values_of(dataset: xr.Dataset, name: str) -> tuple[Array, str]:
 
 
 def about_measures(dataset: xr.Dataset) -> list[dict[str, Any]]:
-    """What the page says of each measure: `name, title, unit, factor, better`; `factor` times SI is the unit."""
+    """What the page says of each measure: `name, title, unit, factor, better`; factor turns SI to it."""
     return [_about(dataset, name) for name in measures_of(dataset)] + load_measures(dataset)
 
 

@@ -59,8 +59,9 @@ def study_page(
     terrain: Terrain,
     stances: Mapping[int, Stance],
     measure: str | None = None,
+    matters: Mapping[str, Any] | None = None,
 ) -> str:
-    """The page's HTML text; arguments as in `save_study_page`."""
+    """The page's HTML text; arguments as in `save_study_page`; `matters` of `matters_of`, where known."""
     if not dataset.sizes.get("case"):
         raise StudyError("the study has no case", cure="run it with n of 1 or more")
     columns = page_columns(dataset)
@@ -84,7 +85,7 @@ def study_page(
         },
         "status_words": STATUS_WORDS,
         "sweep": sweep_of(dataset),
-        "matters": matters_of(dataset),
+        "matters": matters or matters_of(dataset),
         "ground": ground,
         "robots": [about for about, _ in variants],
         "exact": exact,
