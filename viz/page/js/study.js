@@ -133,7 +133,7 @@ function start({ header, segments }) {
   state.follow(wanted);
   window.addEventListener("hashchange", () => state.follow(asked(cases)));
   const { picture } = made;
-  window.roverPin = { state, picture }; // for scripts and the browser's console
+  window.roverPin = { state, picture, ready: performance.now() }; // for scripts and the browser's console
   byId("loading").remove();
 }
 
