@@ -1,12 +1,11 @@
-"""How large a study's page is, and how quick in a Chromium without a window, drawn by its software alone.
+"""How large a study's page is, and how quick in a Chromium without a window.
 
-`python -m rover_pin.analysis.benchmarks.page [CASES | OUT.nc] [RUNS]` makes a study of so many cases (or takes
-a result), writes its page and opens it RUNS times, each in a fresh browser, by a permalink to the last case.
+`python -m rover_pin.analysis.benchmarks.page [CASES|OUT.nc] [RUNS]` makes a study of so many cases or takes
+a result, writes its page and opens it RUNS times, each in a fresh browser, by a permalink to the last case.
 """
 
 from __future__ import annotations
 
-import os
 import sys
 import tempfile
 import time
@@ -14,10 +13,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-import numpy as np
 import xarray as xr
+
+from rover_pin.analysis.benchmarks.page_clock import Opened, opened
 
 if TYPE_CHECKING:
     from selenium.webdriver import Chrome
@@ -25,69 +25,6 @@ if TYPE_CHECKING:
 GROUND = {"rough": {"seed": 1, "rms": 0.05, "hurst": 0.8, "size": 20, "spacing": 0.05}}
 VARY = {"x": "map", "y": "map", "yaw_deg": [0, 360], "friction": [0.3, 0.8]}
 MEASURES = ["loads", "polygon", "tip", "force_angle", "energy", "zmp", "clearance"]
-CHOSEN = 31
-"""Cases that are selected, one after the other."""
-
-TIMED = """
-const done = arguments[arguments.length - 1];
-const { state, picture } = roverPin;
-const frame = () => new Promise((go) => setTimeout(go, 0));
-const now = () => performance.now();
-const took = async (deed) => { await frame(); const from = now(); deed(); return now() - from; };
-(async () => {
-  const out = { chosen: [], drawn: [] };
-  const { viewer } = picture.view;
-  const gl = viewer.renderer.getContext();
-  const seen = () => gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the drawing
-  for (let k = 0; k < arguments[0]; k++) {
-    const i = Math.floor((state.cases.count - 1) * ((k * 0.6180339887) % 1));
-    out.chosen.push(await took(() => state.choose(i)));
-    out.drawn.push(await took(() => { viewer.render(); seen(); }));
-  }
-  const table = document.getElementById("table");
-  const sort = (name) => table.querySelector(`[data-sort="${name}"]`).click();
-  out.sorted = [];
-  for (const name of ["x_m", "x_m", "clearance", "case"]) out.sorted.push(await took(() => sort(name)));
-  table.scrollTop = table.scrollHeight;
-  table.dispatchEvent(new Event("scroll"));
-  out.last = [...table.querySelectorAll("tr[data-case]")].map((row) => Number(row.dataset.case)).pop();
-  const { low, high } = state.scale;
-  out.filtered = await took(() => state.filter(state.measure.name, [low, (low + high) / 2]));
-  out.kept = state.selection.count;
-  done(out);
-})();
-"""
-
-
-@dataclass
-class Opened:
-    """One opening of the page; times in ms, on the wall.
-
-    Attributes:
-        ready: from the file's first byte until everything but the 3D picture stood.
-        pictured: until the 3D picture stood as well.
-        chosen: scripts' work to select a case, all of the page but the 3D picture's drawing; median and worst.
-        drawn: the 3D picture's drawing; median.
-        sorted: the slowest of four sorts of the table.
-        filtered: a range of a histogram.
-        load: of the machine, the mean number of processes in the minute before.
-    """
-
-    ready: float
-    pictured: float
-    chosen: tuple[float, float]
-    drawn: float
-    sorted: float
-    filtered: float
-    load: float
-
-    def __str__(self) -> str:
-        """One line."""
-        return (
-            f"ready {self.ready / 1e3:.2f} s, with the picture {self.pictured / 1e3:.2f} s; a case "
-            f"{self.chosen[0]:.0f} ms (worst of {CHOSEN} {self.chosen[1]:.0f}), its picture {self.drawn:.0f} ms; "
-            f"sort {self.sorted:.0f} ms, filter {self.filtered:.0f} ms; load {self.load:.1f}"
-        )
 
 
 @dataclass
@@ -98,8 +35,8 @@ class PageBench:
         cases: of the study.
         mb: the page's size, million bytes.
         made: s to make it from the result.
-        apart: largest difference of a number of the last case from the result, over the rounding that the page
-            states of its column; 1 at the most.
+        apart: largest difference of a number of the last case from the result, over the rounding that the
+            page states of its column; 1 at the most.
         columns: numbers compared.
         opened: each run.
     """
@@ -143,7 +80,7 @@ def page_bench(out: Path, runs: int = 3) -> PageBench:
             found = PageBench(int(data.sizes["case"]), page.stat().st_size / 1e6, made)
         for _ in range(runs):
             with _opened(page, found.cases - 1) as driver:
-                found.opened.append(_timed(driver, found.cases))
+                found.opened.append(opened(driver, found.cases))
                 found.apart, found.columns = _apart(driver, out, found.cases - 1)
     return found
 
@@ -158,24 +95,6 @@ def _opened(page: Path, case: int) -> Iterator[Chrome]:
         if driver.execute_script("return roverPin.state.chosen") != case:
             raise ArithmeticError(f"the page does not open case {case}")
         yield driver
-
-
-def _timed(driver: Chrome, cases: int) -> Opened:
-    """The page's own clock."""
-    ready, pictured = driver.execute_script("return [roverPin.ready, performance.now()]")
-    found: dict[str, Any] = driver.execute_async_script(TIMED, CHOSEN)
-    if found["last"] != cases - 1:
-        raise ArithmeticError(f"the table by case ends with {found['last']}, not {cases - 1}")
-    chosen = found["chosen"]
-    return Opened(
-        ready=ready,
-        pictured=pictured,
-        chosen=(float(np.median(chosen)), max(chosen)),
-        drawn=float(np.median(found["drawn"])),
-        sorted=max(found["sorted"]),
-        filtered=found["filtered"],
-        load=os.getloadavg()[0],
-    )
 
 
 def _apart(driver: Chrome, out: Path, case: int) -> tuple[float, int]:
