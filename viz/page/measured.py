@@ -65,7 +65,7 @@ def values_of(dataset: xr.Dataset, name: str) -> tuple[Array, str]:
 
 
 def about_measures(dataset: xr.Dataset) -> list[dict[str, Any]]:
-    """What the page says of each measure: `name, title, unit, factor, better`; factor turns SI to it."""
+    """The page's word on each measure: `name, title, unit, factor` (times SI), `better`, `whole` (numbers)."""
     return [_about(dataset, name) for name in measures_of(dataset)] + load_measures(dataset)
 
 
@@ -78,7 +78,14 @@ def _about(dataset: xr.Dataset, name: str) -> dict[str, Any]:
         "unit": unit,
         "factor": factor,
         "better": str(attributes["better"]),
+        "whole": _whole(values_of(dataset, name)[0]),
     }
+
+
+def _whole(values: Array) -> bool:
+    """Whether values are counts."""
+    finite = values[np.isfinite(values)]
+    return bool(len(finite) and (finite == np.rint(finite)).all() and finite.any())
 
 
 def load_measures(dataset: xr.Dataset) -> list[dict[str, Any]]:
@@ -87,7 +94,7 @@ def load_measures(dataset: xr.Dataset) -> list[dict[str, Any]]:
         return []
     pairs = (("lightest_wheel", "Lightest wheel", "high"), ("heaviest_wheel", "Heaviest wheel", "low"))
     return [
-        {"name": name, "title": title, "unit": "N", "factor": 1.0, "better": way}
+        {"name": name, "title": title, "unit": "N", "factor": 1.0, "better": way, "whole": False}
         for name, title, way in pairs
     ]
 

@@ -1,5 +1,5 @@
 /* The map: cells coloured by the worst, median or best of their cases; crosses where there is no answer. */
-import { fixed, nice, number, ticks, decimalsFor } from "./format.js";
+import { fixed, inUnit, nice, ticks, decimalsFor } from "./format.js";
 
 const MARGIN = { left: 46, right: 10, top: 8, bottom: 34 };
 
@@ -188,7 +188,7 @@ export class MapView {
     const count = cell === null ? 0 : cells.shown[cell];
     this.tip.hidden = !count;
     if (!count) return;
-    const value = Number.isNaN(values[cell]) ? "no answer" : `${statistic} ${number(values[cell] * measure.factor)} ${measure.unit}`;
+    const value = Number.isNaN(values[cell]) ? "no answer" : `${statistic} ${inUnit(measure, values[cell])} ${measure.unit}`;
     this.tip.textContent = `${value} · ${fixed(count, 0)} case${count > 1 ? "s" : ""}`;
     const box = this.canvas.getBoundingClientRect();
     this.tip.style.left = `${Math.min(event.clientX - box.left + 12, this.view.w - this.tip.offsetWidth - 4)}px`;

@@ -1,6 +1,6 @@
 /* Histograms of every measure: a drag keeps a range of it, in all that the page shows. */
 import { sized } from "./canvas.js";
-import { element, number } from "./format.js";
+import { element, inUnit, number } from "./format.js";
 import { Spread } from "./spread.js";
 
 const BINS = 48;
@@ -91,7 +91,7 @@ export class Plots {
       const kept = selection.active ? new Spread(cases, row.measure.name, selection.mask) : all;
       row.all = all.total ? all.bins(row.low, row.high, BINS) : null;
       row.kept = kept.bins(row.low, row.high, BINS);
-      const say = (q) => number(kept.quantile(q) * row.measure.factor);
+      const say = (q) => inUnit(row.measure, kept.quantile(q));
       row.figures.textContent = `p5 ${say(0.05)} · p50 ${say(0.5)}`;
     }
   }
@@ -106,8 +106,9 @@ export class Plots {
   }
 
   /* A measure with one value has no histogram. */
-  said({ name, title, unit, factor }) {
-    return `${title}: ${number(factor * this.state.cases.spread(name).least)} ${unit} in every settled case`;
+  said(measure) {
+    const value = this.state.cases.spread(measure.name).least;
+    return `${measure.title}: ${inUnit(measure, value)} ${measure.unit} in every settled case`;
   }
 
   histogram(row, width, height) {
@@ -141,10 +142,10 @@ export class Plots {
       context.fillStyle = "#d6007f";
       context.fillRect(Math.min(width - 2.5, Math.max(0, x(here) - 1.25)), 0, 2.5, height);
     }
-    ends[0].textContent = number(low * measure.factor);
+    ends[0].textContent = inUnit(measure, low);
     ends[1].textContent = range ? `${rangeSaid(range, measure)} ×` : "";
     ends[1].hidden = !range;
-    ends[2].textContent = number(high * measure.factor);
+    ends[2].textContent = inUnit(measure, high);
   }
 }
 

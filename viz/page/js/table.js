@@ -1,5 +1,5 @@
 /* The table of cases, any column sorts it; only the rows in sight exist, so a million cost no more than ten. */
-import { element, fixed, number } from "./format.js";
+import { element, fixed, inUnit, number } from "./format.js";
 
 const [ROW, TALLEST] = [25, 8e6]; // px: a row; what every browser lays out. A longer table scrolls by shares.
 const WIDE = 82; // px: a column
@@ -13,7 +13,7 @@ export function tableColumns(cases) {
     { name: "yaw_rad", title: "Yaw", unit: "°", wide: 46, show: (v) => fixed(v * angle, 0) },
   ];
   const asked = cases.header.varied.map((name) => ({ name, title: titled(name), unit: "", show: shown }));
-  const measures = cases.measures.map((m) => ({ ...m, show: (v) => number(v * m.factor) }));
+  const measures = cases.measures.map((m) => ({ ...m, show: (v) => inUnit(m, v) }));
   return [{ name: "case", title: "Case", unit: "", wide: 68, show: String }, ...place, { name: "status", title: "Status", unit: "", wide: 84, show: shown }, ...asked, ...measures];
 }
 
