@@ -65,7 +65,7 @@ def values_of(dataset: xr.Dataset, name: str) -> tuple[Array, str]:
 
 
 def about_measures(dataset: xr.Dataset) -> list[dict[str, Any]]:
-    """The page's word on each measure: `name, title, unit, factor` (times SI), `better`, `whole` (numbers)."""
+    """Each measure as the page knows it: `name, title, unit, factor, better, whole`; factor from SI to unit."""
     return [_about(dataset, name) for name in measures_of(dataset)] + load_measures(dataset)
 
 
