@@ -5,6 +5,8 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
+_LONGEST = 400  # letters of a value or an element that a message shows
+
 
 class RoverPinError(Exception):
     """Base of every error that rover_pin raises on purpose.
@@ -30,7 +32,7 @@ class RoverPinError(Exception):
     ) -> None:
         self.what = what
         self.file = None if file is None else str(file)
-        self.element = element
+        self.element = None if element is None else str(element)
         self.value = value
         self.cure = cure
         self.problem = problem
@@ -38,10 +40,11 @@ class RoverPinError(Exception):
 
     def __str__(self) -> str:
         """One line: `file: element: what (got value); cure`."""
-        head = ": ".join(part for part in (self.file, self.element) if part)
+        head = ": ".join(part for part in (self.file, _short(self.element)) if part)
         text = f"{head}: {self.what}" if head else self.what
         if self.value is not None:
-            text += f" (got {self.value!r})" if isinstance(self.value, str) else f" (got {self.value})"
+            shown = repr(self.value) if isinstance(self.value, str) else str(self.value)
+            text += f" (got {_short(shown)})"
         if self.cure:
             text += f"; {self.cure}"
         return " ".join(text.split())
@@ -50,6 +53,11 @@ class RoverPinError(Exception):
         """Pickle by fields, so that the error crosses process boundaries whole."""
         fields = (self.what, self.file, self.element, self.value, self.cure)
         return (_rebuild, (type(self), *fields))
+
+
+def _short(text: str | None) -> str | None:
+    """Its beginning and end, where it would fill a screen."""
+    return text if text is None or len(text) <= _LONGEST else f"{text[: _LONGEST - 60]} ... {text[-50:]}"
 
 
 def _rebuild(
@@ -102,7 +110,7 @@ class SolverError(RoverPinError):
 def nearest(name: str, known: Iterable[str]) -> str:
     """Name the nearest known names, `did you mean 'a' or 'b'?`, else list what there is."""
     names = sorted(set(known))
-    close = difflib.get_close_matches(name, names, n=3, cutoff=0.5)
+    close = difflib.get_close_matches(name[:_LONGEST], names, n=3, cutoff=0.5)
     if close:
         return "did you mean " + " or ".join(repr(c) for c in close) + "?"
     if not names:
