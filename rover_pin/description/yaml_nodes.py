@@ -9,6 +9,7 @@ import yaml
 
 LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # the same, compiled, where there is one
 
+_NUMBERS = ("tag:yaml.org,2002:int", "tag:yaml.org,2002:float")
 _MOST = 1_000_000  # nodes, aliases followed
 _DEEPEST = 60
 _OLD = re.compile(r"[-+]?(0[0-7]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?|[0-9][0-9_]*_[0-9_.]*)")
@@ -84,7 +85,7 @@ def _check(node: Any, path: tuple[str | int, ...], above: set[int], sizes: dict[
     elif isinstance(node, yaml.SequenceNode):
         for i, value in enumerate(node.value):
             size += _check(value, (*path, i), above, sizes)
-    elif node.style is None and _OLD.fullmatch(node.value):
+    elif node.tag in _NUMBERS and _OLD.fullmatch(node.value):
         what = (
             f"{node.value!r} is another number to YAML than it looks"  # octal, base 60, or digits in groups
         )

@@ -1,4 +1,4 @@
-"""A closed-loop MJCF of ours beside MuJoCo's own at rest: two four-bar legs, a differential, one foot on a block."""
+"""An MJCF with loops beside MuJoCo itself at rest: two four-bar legs, a differential, one foot on a block."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ WORLD = f"""<mujoco model="rover"><option timestep="0.001"/>
  <geom type="box" size="0.25 0.15 0.05" mass="10" pos="0.04 0.02 0" contype="0" conaffinity="0"/>{{sides}}</body></worldbody>
 <equality><joint name="swing" joint1="upper_l" joint2="upper_r" polycoef="0 -1 0 0 0"/>
 <connect name="close_l" body1="lower_l" body2="knuckle_l" anchor="0.2 0 0"/>
-<connect name="close_r" body1="lower_r" body2="knuckle_r" anchor="0.2 0 0"/></equality></mujoco>"""
+<connect name="close_r" body1="lower_r" body2="knuckle_r" anchor="0.2 0 0"/></equality></mujoco>"""  # noqa: E501
 SIDE = """<body name="upper_{s}" pos="0 {y} 0"><joint name="upper_{s}" axis="0 1 0" range="-60 60"/>
  <geom type="box" size="0.1 0.02 0.02" pos="0.1 0 0" mass="1" contype="0" conaffinity="0"/>
  <body name="knuckle_{s}" pos="0.2 0 0"><joint name="knuckle_{s}" axis="0 1 0"/>
@@ -34,7 +34,7 @@ SIDES = "".join(SIDE.format(s=s, y=y) for s, y in (("l", 0.2), ("r", -0.2)))
 
 
 def mujoco_at_rest(text):
-    """Loads by geom [N], joint positions [rad], roll and pitch of the base [rad]; its motion slowed to end."""
+    """Loads by geom [N], joint positions [rad], roll and pitch of the base [rad]; slowed down."""
     model = mujoco.MjModel.from_xml_string(text)
     data = mujoco.MjData(model)
     for _ in range(6000):
