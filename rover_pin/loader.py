@@ -15,6 +15,7 @@ from rover_pin.description.couplings import gather_couplings
 from rover_pin.description.expand import expand, refuse_undeclared
 from rover_pin.description.geometry import read_geometry
 from rover_pin.description.gepetto import stands_in
+from rover_pin.description.guesses import guesses_waiting
 from rover_pin.description.masses import Masses
 from rover_pin.description.mjcf import Converted, convert, is_mjcf
 from rover_pin.description.model import BASE_DOF, build_model, joint_names, set_limits
@@ -157,6 +158,8 @@ def assemble(recipe: Recipe) -> Rover:
     notes = Notes(recipe.notes)
     if file is None:
         notes.add("no sidecar: suspension, wheels and actuation are only what the URDF says")
+    elif waiting := guesses_waiting(text or ""):
+        notes.add(f"{waiting} guesses of rover-pin init are still commented out in {file.name}: not used")
     made = prepare(recipe, sidecar, notes)
     name = recipe.name or made.tree.name or recipe.source.stem
     model = build_model(made.urdf, name, made.tree.joints)

@@ -58,7 +58,7 @@ def check(tree: Tree) -> None:
     _types(tree)
     _ends(tree)
     _one_tree(tree)
-    for element in (*tree.links.values(), *tree.joints.values()):
+    for element in (*tree.links.values(), *tree.joints.values(), *tree.robot.findall("material")):
         _numbers(tree, element)
     for name, joint in tree.joints.items():
         _axis(tree, name, joint)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import contextlib
 import io
 import re
@@ -105,8 +106,10 @@ def run_xacro(
             document = engine.xacro.parse(text)
             engine.xacro.process_doc(document, mappings=arguments)
             expanded = str(document.toxml())
-    except DescriptionError:
-        raise
+    except DescriptionError as error:
+        raise DescriptionError(
+            error.what, file=error.file or path, element=error.element, value=error.value, cure=error.cure
+        ) from None
     except Exception as error:  # xacro raises whatever an expression of the file raises
         raise DescriptionError(f"xacro: {error}", file=path, cure=_cure(str(error), packages)) from error
     for line in said.getvalue().splitlines():
@@ -137,6 +140,18 @@ def _cure(message: str, packages: Packages) -> str:
     return "mend the expression in the xacro file"
 
 
+def _towers(expression: str) -> bool:
+    """Whether an exponent holds a power, as 9**9**9, whose digits fill the memory."""
+    try:
+        tree = ast.parse(expression.strip(), mode="eval")
+    except (SyntaxError, ValueError, RecursionError):
+        return False  # xacro says what is wrong with it
+    powers = (n for n in ast.walk(tree) if isinstance(n, ast.BinOp) and isinstance(n.op, ast.Pow))
+    return any(
+        isinstance(n, ast.BinOp) and isinstance(n.op, ast.Pow) for p in powers for n in ast.walk(p.right)
+    )
+
+
 @contextlib.contextmanager
 def _around_xacro(packages: Packages, notes: Notes, skip: bool) -> Iterator[None]:
     """Xacro with our package finder and, if wanted, missing includes left out.
@@ -161,12 +176,21 @@ def _around_xacro(packages: Packages, notes: Notes, skip: bool) -> Iterator[None
             notes.add(f"include {element.getAttribute('filename')} is missing: skipped")
             xacro.replace_node(element, by=None)
 
+    def evaluate(expression: str, *symbols: Any) -> Any:
+        if _towers(expression):
+            raise DescriptionError(
+                "a power of a power", value=expression, cure="it would not end: put brackets"
+            )
+        return usual_eval(expression, *symbols)
+
     usual_find, usual_include = substitution_args._eval_find, xacro.process_include
-    substitution_args._eval_find, xacro.process_include = find, include
+    usual_eval = xacro.safe_eval
+    substitution_args._eval_find, xacro.process_include, xacro.safe_eval = find, include, evaluate
     try:
         yield
     finally:
         substitution_args._eval_find, xacro.process_include = usual_find, usual_include
+        xacro.safe_eval = usual_eval
 
 
 def refuse_undeclared(
