@@ -106,10 +106,8 @@ def run_xacro(
             document = engine.xacro.parse(text)
             engine.xacro.process_doc(document, mappings=arguments)
             expanded = str(document.toxml())
-    except DescriptionError as error:
-        raise DescriptionError(
-            error.what, file=error.file or path, element=error.element, value=error.value, cure=error.cure
-        ) from None
+    except DescriptionError:
+        raise
     except Exception as error:  # xacro raises whatever an expression of the file raises
         raise DescriptionError(f"xacro: {error}", file=path, cure=_cure(str(error), packages)) from error
     for line in said.getvalue().splitlines():
@@ -146,10 +144,15 @@ def _towers(expression: str) -> bool:
         tree = ast.parse(expression.strip(), mode="eval")
     except (SyntaxError, ValueError, RecursionError):
         return False  # xacro says what is wrong with it
-    powers = (n for n in ast.walk(tree) if isinstance(n, ast.BinOp) and isinstance(n.op, ast.Pow))
-    return any(
-        isinstance(n, ast.BinOp) and isinstance(n.op, ast.Pow) for p in powers for n in ast.walk(p.right)
-    )
+    return any(_is_power(inner) for power in filter(_is_power, ast.walk(tree)) for inner in _exponent(power))
+
+
+def _is_power(node: ast.AST) -> bool:
+    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow)
+
+
+def _exponent(power: Any) -> Iterator[ast.AST]:
+    return ast.walk(power.right)
 
 
 @contextlib.contextmanager
@@ -178,9 +181,7 @@ def _around_xacro(packages: Packages, notes: Notes, skip: bool) -> Iterator[None
 
     def evaluate(expression: str, *symbols: Any) -> Any:
         if _towers(expression):
-            raise DescriptionError(
-                "a power of a power", value=expression, cure="it would not end: put brackets"
-            )
+            raise ValueError("a power in an exponent may not end: put it into a property of its own")
         return usual_eval(expression, *symbols)
 
     usual_find, usual_include = substitution_args._eval_find, xacro.process_include
