@@ -107,7 +107,7 @@ def parse_xml(text: str, file: object, cure: str) -> Element:
         # It lets names pass (`a:`) that no parser takes again, and what is built on the tree reads it anew.
         etree.fromstring(etree.tostring(found), parser)
     except etree.XMLSyntaxError as problem:
-        raise DescriptionError(f"not XML: {problem.msg}", file=file, cure=cure) from problem
+        raise DescriptionError(f"not XML: {str(problem.msg)[:300]}", file=file, cure=cure) from problem
     return found
 
 

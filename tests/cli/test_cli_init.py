@@ -176,8 +176,9 @@ def exported(folder):
         moved.export(folder / f"meshes/Wheel v{k}.stl")
         parts.append(
             f'<link name="Wheel v{k}:1">{inertial}<visual><origin xyz="{-x} {-y} 0.1"/><geometry><mesh '
-            f'filename="package://fusion/meshes/Wheel v{k}.stl" scale="0.001 0.001 0.001"/></geometry></visual></link>'
-            f'<joint name="Revolute {k}" type="continuous"><origin xyz="{x} {y} -0.1"/><parent link="base_link"/>'
+            f'filename="package://fusion/meshes/Wheel v{k}.stl" scale="0.001 0.001 0.001"/></geometry>'
+            f'</visual></link><joint name="Revolute {k}" type="continuous"><origin xyz="{x} {y} -0.1"/>'
+            f'<parent link="base_link"/>'
             f'<child link="Wheel v{k}:1"/><axis xyz="0.0 -1.0 0.0"/></joint>'
         )
     path = folder / "fusion.urdf"
@@ -195,8 +196,9 @@ def test_a_cad_export_stands_once_its_guesses_are_taken(tmp_path, capsys):
     assert capsys.readouterr().err.endswith("every guess is commented out\n")
     assert main(["settle", str(urdf)]) == 2
     assert capsys.readouterr().err == (
-        f"error: {folder}/rover.yaml: wheels: nothing of this robot touches the ground: it has no wheels and no "
-        "contacts; take `# ` away from its lines that are right: guesses of rover-pin init are not used before\n"
+        f"error: {folder}/rover.yaml: wheels: nothing of this robot touches the ground: it has no wheels "
+        "and no contacts; take `# ` away from its lines that are right: guesses of rover-pin init are not "
+        "used before\n"
     )
     waiting = "guesses of rover-pin init are still commented out in rover.yaml: not used"
     assert any(note.endswith(waiting) for note in rp.load(urdf).notes)

@@ -236,9 +236,10 @@ def test_yaml_that_is_more_than_it_seems(text, told):
 def test_a_power_tower_in_a_xacro_is_refused_at_once(tmp_path):
     path = tmp_path / "bot.urdf.xacro"
     path.write_text(
-        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:property name="p" value="${9**9**9}"/>'
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+        '<xacro:property name="p" value="${9**9**9}"/>'
         '<link name="l"><inertial><mass value="${p}"/></inertial></link></robot>'
     )
     with pytest.raises(InputError) as caught:
         rp.load(path)
-    assert str(caught.value).startswith(f"{path}: a power of a power (got '9**9**9')")
+    assert str(caught.value).startswith(f"{path}: xacro: a power in an exponent may not end")
