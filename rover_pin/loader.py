@@ -16,6 +16,7 @@ from rover_pin.description.expand import expand, refuse_undeclared
 from rover_pin.description.geometry import read_geometry
 from rover_pin.description.gepetto import stands_in
 from rover_pin.description.guesses import guesses_waiting
+from rover_pin.description.limits import tell_zero_efforts
 from rover_pin.description.masses import Masses
 from rover_pin.description.mjcf import Converted, convert, is_mjcf
 from rover_pin.description.model import BASE_DOF, build_model, joint_names, set_limits
@@ -173,6 +174,7 @@ def assemble(recipe: Recipe) -> Rover:
     actuated = actuated_joints(
         made.tree, joints, sidecar.actuated, sidecar.passive, driven, notes, file, idle
     )
+    tell_zero_efforts(made.limits, actuated, notes)
     couplings = gather_couplings(made.mimics, sidecar.couplings, made.held, notes, file)
     meshes = Packages(recipe.source, recipe.packages)
     rover = Rover(

@@ -49,13 +49,9 @@ def read_yaml(text: str) -> tuple[Any, yaml.Node | None]:
         raise RefusedError(f"not YAML: {why}", "check indentation, colons and brackets", line) from problem
     except RecursionError as problem:
         raise RefusedError("nested too deeply", f"at most {_DEEPEST} levels") from problem
-    except (
-        ValueError,
-        OverflowError,
-    ) as problem:  # a date that is none, a whole number of thousands of digits
-        raise RefusedError(
-            f"not YAML: {problem}", "put words in quotes, and numbers in SI units"
-        ) from problem
+    except (ValueError, OverflowError) as problem:  # a date that is none, a number of thousands of digits
+        cure = "put words in quotes, and numbers in SI units"
+        raise RefusedError(f"not YAML: {problem}", cure) from problem
 
 
 def _check(node: Any, path: tuple[str | int, ...], above: set[int], sizes: dict[int, int]) -> int:
@@ -86,9 +82,8 @@ def _check(node: Any, path: tuple[str | int, ...], above: set[int], sizes: dict[
         for i, value in enumerate(node.value):
             size += _check(value, (*path, i), above, sizes)
     elif node.tag in _NUMBERS and _OLD.fullmatch(node.value):
-        what = (
-            f"{node.value!r} is another number to YAML than it looks"  # octal, base 60, or digits in groups
-        )
+        # octal, base 60, or digits in groups
+        what = f"{node.value!r} is another number to YAML than it looks"
         raise RefusedError(what, "write plain digits, or quotes around a name", line, path)
     if size > _MOST:
         raise RefusedError("more by aliases than a file holds", "write it out", line, path)

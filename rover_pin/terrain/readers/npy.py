@@ -21,7 +21,5 @@ def read_npy(path: Path, spacing_given: bool) -> HeightMap:
         return HeightMap(np.load(path, allow_pickle=False))
     except OSError:
         raise
-    except (
-        Exception
-    ) as error:  # numpy raises whatever its tokenizer and its allocation raise on damaged files
+    except Exception as error:  # numpy's tokenizer and its allocation raise many kinds on damaged files
         raise TerrainError("cannot be read as .npy", file=path, value=str(error)) from error
