@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import difflib
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Iterator
 
 _LONGEST = 400  # letters of a value or an element that a message shows
+_WORD = re.compile(rf"\w{{{_LONGEST},}}")  # no file's path is one such word
 
 
 class RoverPinError(Exception):
@@ -47,7 +50,7 @@ class RoverPinError(Exception):
             text += f" (got {_short(shown)})"
         if self.cure:
             text += f"; {self.cure}"
-        return " ".join(text.split())
+        return _WORD.sub(lambda word: str(_short(word.group())), " ".join(text.split()))
 
     def __reduce__(self) -> tuple[object, ...]:
         """Pickle by fields, so that the error crosses process boundaries whole."""
@@ -58,6 +61,18 @@ class RoverPinError(Exception):
 def _short(text: str | None) -> str | None:
     """Its beginning and end, where it would fill a screen."""
     return text if text is None or len(text) <= _LONGEST else f"{text[: _LONGEST - 60]} ... {text[-50:]}"
+
+
+@contextlib.contextmanager
+def naming(file: object) -> Iterator[None]:
+    """Let errors from within that name no file name this one."""
+    try:
+        yield
+    except RoverPinError as error:
+        if error.file is None and file is not None:
+            error.file = str(file)
+            error.args = (str(error),)
+        raise
 
 
 def _rebuild(

@@ -29,6 +29,7 @@ from rover_pin.description.recipe import Recipe
 from rover_pin.description.shapes import Placer
 from rover_pin.description.sidecar import Sidecar, formulas_of, load_sidecar, read_sidecar
 from rover_pin.description.stated import checked_postures, lockable_joints, resolve_springs
+from rover_pin.errors import naming
 from rover_pin.mechanism import Kinematics
 from rover_pin.rover import Rover
 
@@ -154,8 +155,13 @@ def assemble(recipe: Recipe) -> Rover:
     Raises:
         InputError: what is wrong in the texts.
     """
+    with naming(recipe.sidecar_path or recipe.source):
+        return _assembled(recipe)
+
+
+def _assembled(recipe: Recipe) -> Rover:
     file, text = recipe.sidecar_path, recipe.sidecar_text
-    sidecar = Sidecar() if text is None else read_sidecar(text, file, recipe.parameters)
+    sidecar = Sidecar() if text is None else read_sidecar(text, file or recipe.source, recipe.parameters)
     notes = Notes(recipe.notes)
     if file is None:
         notes.add("no sidecar: suspension, wheels and actuation are only what the URDF says")

@@ -213,7 +213,7 @@ def load_sidecar(
         if "schema" not in parse_yaml(text, path)[0]:
             text = f"{text.rstrip()}\nschema: {SCHEMA}"
     text = with_others(text, others)
-    return read_sidecar(text, path), text
+    return read_sidecar(text, path or next(iter(others.values())).file), text
 
 
 def _once(names: Sequence[str], key: str, file: object) -> None:
