@@ -144,41 +144,40 @@ class Standing:
 
     def _torque_rows(self, rays) -> tuple[np.ndarray, np.ndarray]:
         """|torque of each joint| <= its effort, in the forces of `reach`."""
-        less, most = [], []
+        forces, weights, limits = self._torques
+        rows = np.concatenate([forces[:, i] @ r.T for i, r in enumerate(rays)], axis=1)
+        rows = np.hstack([rows, np.zeros((len(rows), 2))])
+        return np.vstack([rows, -rows]), np.r_[limits - weights, limits + weights]
+
+    @cached_property
+    def _torques(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Of each moving joint: (j, k, 3) by forces at the contacts, (j,) by the weight below, (j,) its limit."""
+        forces, weights, limits = [], [], []
         for b in self.branches:
-            if b.fixed or not (self._carries(b) or self._hangs(b)):
+            if b.fixed:
                 continue
-            row, weight = self.torque_of(b, rays)
-            for sign in (1.0, -1.0):
-                less.append(np.r_[sign * row, 0.0, 0.0])
-                most.append(self.effort[b.name] - sign * weight)
-        return np.array(less), np.array(most)
+            pose, below = self.links[b.child], self._below(b)
+            origin, axis = pose[:3, 3], pose[:3, :3] @ b.axis
 
-    def torque_of(self, b: Branch, rays) -> tuple[np.ndarray, float]:
-        """What the joint's motor gains by each contact's ray, and by the weight of all below it."""
-        pose = self.links[b.child]
-        origin, axis = pose[:3, 3], pose[:3, :3] @ b.axis
-        row = []
-        for shape, p, r in zip(self.shapes, self.points, rays, strict=True):
-            own = (r @ axis) if b.sliding else np.cross(p - origin, r) @ axis
-            row.append(own if self._below(b, shape.link) else np.zeros(len(r)))
-        weight = 0.0
-        for link, (m, com) in self.masses.items():
-            if self._below(b, link):
-                pull = np.array([0.0, 0.0, -m * self.gravity])
-                arm = (self.links[link] @ com)[:3] - origin
-                weight += (pull if b.sliding else np.cross(arm, pull)) @ axis
-        return np.concatenate(row), float(weight)
+            def turn(place, b=b, origin=origin, axis=axis):
+                """What a unit force at a place gives, along x, y and z."""
+                return axis if b.sliding else np.cross(axis, place - origin)
 
-    def _below(self, b: Branch, link: str) -> bool:
-        while link in self.above:
-            if self.above[link] is b:
-                return True
-            link = self.above[link].parent
-        return False
+            carried = zip(self.shapes, self.points, strict=True)
+            forces.append([turn(p) if s.link in below else np.zeros(3) for s, p in carried])
+            heavy = [(m, self.links[link] @ own) for link, (m, own) in self.masses.items() if link in below]
+            weights.append(-self.gravity * sum(m * turn(place[:3])[2] for m, place in heavy))
+            limits.append(self.effort[b.name])
+        return np.array(forces), np.array(weights), np.array(limits)
 
-    def _carries(self, b: Branch) -> bool:
-        return any(self._below(b, shape.link) for shape in self.shapes)
-
-    def _hangs(self, b: Branch) -> bool:
-        return any(self._below(b, link) for link in self.masses)
+    def _below(self, b: Branch) -> set[str]:
+        """Links that move with a joint."""
+        found = {b.child}
+        for link in self.links:
+            up, chain = link, []
+            while up in self.above and up not in found:
+                chain.append(up)
+                up = self.above[up].parent
+            if up in found:
+                found.update(chain)
+        return found
