@@ -151,7 +151,7 @@ class Standing:
 
     @cached_property
     def _torques(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Of each moving joint: (j, k, 3) by forces at the contacts, (j,) by the weight below, (j,) its limit."""
+        """Of each moving joint: (j, k, 3) by forces at contacts, (j,) by the weight below, (j,) its limit."""
         forces, weights, limits = [], [], []
         for b in self.branches:
             if b.fixed:
