@@ -1,8 +1,8 @@
 """The `robot.yaml` of Gepetto's example-parallel-robots, in the words of our sidecar.
 
 `closed_loop: [[a, b]]` with `type: [6d | 3d]` are welds and balls; `name_mot` are the driven joints;
-`joint_name` with `joint_type: [SPHERICAL | CARDAN | UJOINT_XY | FIXED]` are joints of another type than the URDF
-says; a CARDAN is a UJOINT_XY, and there is one for every two letters.
+`joint_name` with `joint_type: [SPHERICAL | CARDAN | UJOINT_XY | FIXED]` are joints of another type than the
+URDF says; a CARDAN is a UJOINT_XY, and there is one for every two letters.
 The keys are those of https://github.com/Gepetto/example-parallel-robots (`loader_tools.py`).
 """
 
