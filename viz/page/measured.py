@@ -65,7 +65,7 @@ def values_of(dataset: xr.Dataset, name: str) -> tuple[Array, str]:
 
 
 def about_measures(dataset: xr.Dataset) -> list[dict[str, Any]]:
-    """Each measure as the page knows it: `name, title, unit, factor, better, whole`; factor from SI to unit."""
+    """Each measure for the page: `name, title, unit, factor, better, whole`; factor goes from SI to unit."""
     return [_about(dataset, name) for name in measures_of(dataset)] + load_measures(dataset)
 
 
