@@ -26,6 +26,7 @@ export class Viewer3d {
       render();
       for (const tell of this.listeners) tell();
     };
+    this.viewer.renderer.debug.checkShaderErrors = false; // asking waits for each shader
     this.setting();
     this.viewer.camera.fov = 42;
     this.viewer.camera.near = 0.02;
