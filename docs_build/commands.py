@@ -7,13 +7,9 @@ generated; a command without one has a page all the same.
 from __future__ import annotations
 
 import inspect
-from pathlib import Path
+from typing import Any
 
-import click
 import typer
-
-ROOT = Path(__file__).parents[1]
-BY_HAND = ROOT / "docs" / "commands"
 
 STATUSES = """## Exit status
 
@@ -26,7 +22,7 @@ Lengths in metres, angles in radians, forces in newtons; `null` where there is n
 """
 
 
-def commands() -> dict[str, click.Command]:
+def commands() -> dict[str, Any]:
     """Every command under its name, in the application's order."""
     from rover_pin.cli.app import app
 
@@ -68,34 +64,38 @@ _INTRODUCTION = """Every command prints a table for people, and with `--json` on
 """
 
 
-def summary(command: click.Command) -> str:
+def summary(command: Any) -> str:
     """The first sentence of a command's help."""
     return inspect.cleandoc(command.help or "").split("\n\n")[0].replace("\n", " ")
 
 
-def _options(command: click.Command) -> list[str]:
+def _options(command: Any) -> list[str]:
     return [name for each in command.params for name in each.opts]
 
 
-def _usage(name: str, command: click.Command) -> str:
-    words = [_metavar(each) for each in command.params if isinstance(each, click.Argument)]
+def _usage(name: str, command: Any) -> str:
+    words = [_metavar(each) for each in command.params if _is_argument(each)]
     return f"```text\nrover-pin {' '.join([name, *words, '[OPTIONS]'])}\n```"
 
 
-def _metavar(each: click.Parameter) -> str:
+def _is_argument(each: Any) -> bool:
+    return not each.opts[0].startswith("-")
+
+
+def _metavar(each: Any) -> str:
     word = str(each.metavar or each.name or "").upper().strip("[]")
     return word if each.required else f"[{word}]"
 
 
-def _table(command: click.Command) -> str:
+def _table(command: Any) -> str:
     rows = ["| option | what | silent |", "|---|---|---|"]
     rows += [_row(each) for each in command.params]
     return "\n".join(rows)
 
 
-def _row(each: click.Parameter) -> str:
+def _row(each: Any) -> str:
     told = str(getattr(each, "help", "") or "")
-    if isinstance(each, click.Argument):
+    if _is_argument(each):
         return f"| `{_metavar(each)}` | {_cell(told)} | {'required' if each.required else _default(each)} |"
     names = ", ".join(f"`{name}`" for name in (*each.opts, *each.secondary_opts))
     flag = bool(getattr(each, "is_flag", False))
@@ -104,11 +104,11 @@ def _row(each: click.Parameter) -> str:
     return f"| {names}{_cell(value)} | {_cell(told)}{times} | {'' if flag else _default(each)} |"
 
 
-def _value(each: click.Parameter) -> str:
-    return each.metavar or each.type.name.upper()
+def _value(each: Any) -> str:
+    return str(each.metavar or each.name.upper())
 
 
-def _default(each: click.Parameter) -> str:
+def _default(each: Any) -> str:
     default = each.default
     if default is None or default in ("", [], ()):
         return ""

@@ -1,6 +1,7 @@
 """The sources as the reader of docstrings wants them: every folder of modules a regular package.
 
-griffe passes over folders without an `__init__.py`, which Python imports all the same.
+griffe passes over folders without an `__init__.py`, which Python imports all the same (and follows links back to the
+folder they point into, hence copies). A unit behind brackets, `Z[i, j] [m]`, would be a link in Markdown.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ def mirror(target: Path) -> None:
         place = target / Path(name).relative_to(ROOT)
         place.mkdir(parents=True)
         for each in modules:
-            shutil.copyfile(Path(name) / each, place / each)  # a link would be followed back to its folder
+            text = (Path(name) / each).read_text(encoding="utf-8")
+            (place / each).write_text(text.replace("] [", "]&#32;["), encoding="utf-8")
         if "__init__.py" not in modules:
             (place / "__init__.py").touch()
