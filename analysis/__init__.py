@@ -1,9 +1,24 @@
 """Studies: many cases of one question, run by an engine, answered as one labelled Dataset."""
 
+from rover_pin.analysis.chances import probabilities
+from rover_pin.analysis.comparison import Comparison, Design, compare, paired
+from rover_pin.analysis.indices import sobol_indices
 from rover_pin.analysis.mobility import mobility
 from rover_pin.analysis.search import search
 from rover_pin.analysis.sensitivity import sensitivity
 from rover_pin.analysis.slopes import slopes
 from rover_pin.analysis.study import Study
 
-__all__ = ["Study", "mobility", "search", "sensitivity", "slopes"]
+__all__ = [
+    "Comparison",
+    "Design",
+    "Study",
+    "compare",
+    "mobility",
+    "paired",
+    "probabilities",
+    "search",
+    "sensitivity",
+    "slopes",
+    "sobol_indices",
+]

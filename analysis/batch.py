@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rover_pin.analysis.cases import Cases
 from rover_pin.analysis.rows import EDGES, PLAIN, POSE, RESIDUALS, TENSION, Columns, Layout, coded
 from rover_pin.analysis.vocabulary import Words, tight
+from rover_pin.analysis.weights import changes_of
 from rover_pin.analysis.words import posture
 from rover_pin.statics.stance import Status
 
@@ -67,6 +68,7 @@ class CompiledRows:
             posture=cases.posture,
             joints=cases.joints or None,
             parameters=cases.parameters or None,
+            changes=changes_of(cases.weights) if cases.weights else None,
         )
         return Answered(as_columns(answers, self._layout), np.flatnonzero(answers.code == OPEN))
 

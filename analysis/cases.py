@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,7 @@ class Case:
     friction: float | None
     parameters: Mapping[str, float]
     joints: Mapping[str, float]
+    weights: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -38,6 +39,7 @@ class Cases:
         posture: (n,) index into `postures`.
         friction: (n,) or None where each wheel's declared friction counts.
         parameters, joints: name to (n,) values.
+        weights: masses and where they sit, named as in `weights.py`, likewise.
     """
 
     x: Array
@@ -48,6 +50,7 @@ class Cases:
     friction: Array | None
     parameters: Mapping[str, Array]
     joints: Mapping[str, Array]
+    weights: Mapping[str, Array] = field(default_factory=dict)
 
     def __len__(self) -> int:
         """The number of cases."""
@@ -63,6 +66,7 @@ class Cases:
             None if self.friction is None else float(self.friction[i]),
             {name: float(values[i]) for name, values in self.parameters.items()},
             {name: float(values[i]) for name, values in self.joints.items()},
+            {name: float(values[i]) for name, values in self.weights.items()},
         )
 
 
@@ -75,10 +79,11 @@ class Questions:
     parameters: Mapping[str, Quantity]
     joints: Mapping[str, Quantity]
     postures: tuple[str, ...]
+    weights: Mapping[str, Quantity] = field(default_factory=dict)
 
     @property
     def columns(self) -> dict[str, Quantity]:
         """Every quantity by its name; the last varies fastest in a grid."""
         posture: Quantity = Choice(tuple(float(i) for i in range(max(1, len(self.postures)))))
         friction = {} if self.friction is None else {"friction": self.friction}
-        return {**self.parameters, POSTURE: posture, **self.joints, **friction, **self.place}
+        return {**self.parameters, **self.weights, POSTURE: posture, **self.joints, **friction, **self.place}

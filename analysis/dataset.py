@@ -17,6 +17,7 @@ from rover_pin.analysis.rows import Columns
 from rover_pin.analysis.schema import CASE, Block, schema
 from rover_pin.analysis.vocabulary import Words
 from rover_pin.errors import StudyError
+from rover_pin.payload import told
 
 if TYPE_CHECKING:
     from rover_pin.analysis.study import Study
@@ -55,10 +56,12 @@ def attributes(study: Study, found: Found) -> dict[str, Any]:
         "terrain_digest": ready.job.terrain.digest,
         "sampler": study.spec.cases.sampler,
         "seed": study.spec.cases.seed,
+        **({"inputs": "\n".join(ready.job.cases.inputs)} if study.spec.cases.sampler == "saltelli" else {}),
         "study": study.text,
         "study_file": "" if study.file is None else str(study.file),
         "study_folder": str(study.folder),
         "gravity": study.spec.gravity,
+        "payload": told(ready.rover.recipe.payload),
         "left_out": "; ".join(f"{name}: {why}" for name, why in ready.left_out.items()),
         "plain_path_cases": found.plain,
         "git_commit": commit,

@@ -9,7 +9,9 @@ import numpy as np
 
 from rover_pin.analysis.cases import POSTURE, Cases, Questions
 from rover_pin.analysis.grid import Grid
+from rover_pin.analysis.independent import Independent
 from rover_pin.analysis.one_by_one import OneByOne
+from rover_pin.analysis.saltelli import Saltelli
 from rover_pin.analysis.sobol import Sobol
 from rover_pin.analysis.spec import CasesSpec
 from rover_pin.errors import StudyError
@@ -27,6 +29,11 @@ class Draw:
     def __len__(self) -> int:
         """The number of cases."""
         return self.count
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """What varies, in the order of the columns."""
+        return tuple(name for name, asked in self.questions.columns.items() if asked.varies)
 
     @property
     def digest(self) -> str:
@@ -67,6 +74,7 @@ class Drawer:
             friction=frozen(drawn["friction"]) if asked.friction is not None else None,
             parameters={name: frozen(drawn[name]) for name in asked.parameters},
             joints={name: frozen(drawn[name]) for name in asked.joints},
+            weights={name: frozen(drawn[name]) for name in asked.weights},
         )
 
 
@@ -74,17 +82,20 @@ def draw(questions: Questions, spec: CasesSpec) -> Draw:
     """The cases of a study, none of them drawn yet.
 
     Raises:
-        StudyError: a grid without its counts, a count of what does not vary, or too many cases.
+        StudyError: a grid without its counts, a count of what does not vary, a distribution that the sampler
+            cannot cut, or too many cases.
     """
     sampler = _sampler(questions, spec)
-    return Draw(questions, spec, spec.number if isinstance(sampler, Sobol) else sampler.count)
+    return Draw(questions, spec, spec.number if isinstance(sampler, Sobol | Independent) else sampler.count)
 
 
-def _sampler(questions: Questions, spec: CasesSpec) -> Sobol | Grid | OneByOne:
+def _sampler(questions: Questions, spec: CasesSpec) -> Sobol | Independent | Saltelli | Grid | OneByOne:
     """The sampler that the study names."""
     columns = questions.columns
     if spec.sampler == "grid":
         return Grid(columns, spec)
     if spec.sampler == "sensitivity":
         return OneByOne(columns, questions.parameters)
-    return Sobol(columns, spec.seed)
+    if spec.sampler == "saltelli":
+        return Saltelli(columns, spec.number, spec.seed)
+    return (Independent if spec.sampler == "random" else Sobol)(columns, spec.seed)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_pin.analysis.chance import Chance
 from rover_pin.analysis.quantities import Choice, Quantity, Span
 from rover_pin.analysis.spec import MOST_CASES, CasesSpec
 from rover_pin.errors import StudyError, nearest
@@ -23,7 +24,7 @@ EACH = {0: 1, 1: 41, 2: 21}
 class Axis:
     """One quantity cut into ticks, which are worked out only where they are asked for."""
 
-    asked: Quantity
+    asked: Choice | Span
     count: int
     whole_circle: bool
 
@@ -67,6 +68,11 @@ class Grid:
 
 
 def _axis(name: str, asked: Quantity, count: int) -> Axis:
+    if isinstance(asked, Chance):
+        cure = "draw it: cases: {sampler: sobol, n: 10000}, random or saltelli; or give a range"
+        raise StudyError(
+            "a grid cannot cut a distribution", element=f"vary.{name}", value=asked.kind, cure=cure
+        )
     if isinstance(asked, Choice):
         return Axis(asked, len(asked.values), False)
     whole = name == "yaw_deg" and math.isclose(asked.high - asked.low, CIRCLE_DEG)

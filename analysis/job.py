@@ -97,7 +97,7 @@ class Runner:
         from rover_pin import settle
 
         case = self.case(i)
-        rover = self._rovers(case.parameters)
+        rover = self._rovers(case.parameters, case.weights)
         shapes, wheels = tuple(shape.name for shape in rover.shapes), self.job.layout.wheels
         if shapes != wheels or tuple(rover.joints) != self.job.layout.joints:
             raise StudyError("the parameters change which joints or wheels there are", file=rover.source)

@@ -22,6 +22,7 @@ from rover_pin.analysis.quantities import MAP, Choice, Quantity, Span
 from rover_pin.analysis.rovers import load_from, loaded
 from rover_pin.analysis.rows import BOUNDS, Layout
 from rover_pin.analysis.spec import StudySpec, VarySpec
+from rover_pin.analysis.weights import check_weights, weights_of
 from rover_pin.analysis.words import posture
 from rover_pin.errors import InputError, StudyError, nearest
 from rover_pin.stability.report import inapplicable
@@ -63,6 +64,7 @@ def plan(spec: StudySpec, folder: Path, file: object, given: Rover | None = None
     rover = rovers[0]
     _check_names(spec, rover, file)
     with _named(file):
+        check_weights(weights_of(spec.vary), rover)
         cases = draw(_questions(spec.vary, asked, rovers, terrain), spec.cases)
     wheels = tuple(shape.name for shape in rover.shapes)
     margins = [name for name in spec.measures if name != BOUNDS]
@@ -87,7 +89,9 @@ def plan(spec: StudySpec, folder: Path, file: object, given: Rover | None = None
     made_of = {
         "the cases": cases.digest,
         "the measures": digest(repr(spec.measures)),
-        "gravity, payload or locks": digest(repr((spec.gravity, rover.recipe.payload, spec.locks))),
+        "gravity, payload or locks": digest(
+            repr((spec.gravity, rover.recipe.payload, rover.recipe.masses, spec.locks))
+        ),
         "the robot's description": hashlib.sha256(
             repr([(each.urdf, each.recipe.parameters) for each in rovers]).encode()
         ).hexdigest(),
@@ -194,6 +198,7 @@ def _questions(
         parameters=parameters,
         joints=vary.joints,
         postures=vary.posture or (),
+        weights=weights_of(vary),
     )
 
 

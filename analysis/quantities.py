@@ -1,14 +1,15 @@
-"""What a study may vary: a range, a choice of values, or one fixed value, as written in the study file."""
+"""What a study may vary, as the study file writes it: a range, a choice, a distribution, or one value."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator
 
+from rover_pin.analysis.chance import Chance, is_chance, read_chance
+from rover_pin.analysis.finite import number
 from rover_pin.errors import StudyError
 
 
@@ -23,6 +24,11 @@ class Span:
     def varies(self) -> bool:
         """Whether there is more than one value."""
         return self.high > self.low
+
+    @property
+    def support(self) -> tuple[float, float]:
+        """Between which values it lies."""
+        return self.ends
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -42,13 +48,18 @@ class Choice:
         return len(self.values) > 1
 
     @property
+    def support(self) -> tuple[float, float]:
+        """Between which values it lies."""
+        return self.ends
+
+    @property
     def ends(self) -> tuple[float, float]:
         """Least and greatest value."""
         return (min(self.values), max(self.values))
 
 
-Quantity = Span | Choice
-"""A range or a choice of numbers."""
+Quantity = Span | Choice | Chance
+"""A range, a choice or a distribution of numbers."""
 
 MOST_VALUES = 10_000
 """The most values that evenly spaced ones may be."""
@@ -57,33 +68,18 @@ MAP = "map"
 """The word for the whole map, less the room the wheels need."""
 
 
-def number(raw: object) -> float:
-    """A finite float from what YAML gave (`1e-3` comes as text there).
-
-    Raises:
-        StudyError: not a number, or not a finite one.
-    """
-    try:
-        if isinstance(raw, bool) or raw is None:
-            raise TypeError
-        value = float(raw)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        raise StudyError("is not a number", value=raw) from None
-    if not math.isfinite(value):
-        raise StudyError("is not a finite number", value=raw)
-    return value
-
-
 def quantity(raw: object) -> Quantity:
     """Read a quantity: `0.5` or `[0.5]` fixed, `[lo, hi]` a range, three or more a choice.
 
     `{values: [a, b]}` is a choice of two, `{from: lo, to: hi, by: step}` one of evenly spaced values, as is
-    `{from: lo, to: hi, count: n}`.
+    `{from: lo, to: hi, count: n}`. Distributions: `{normal: {mean: 10, sd: 0.5, bounds: [8, 12]}}` and the
+    others
+    of `chance.py`; a uniform one is a range.
 
     Raises:
         StudyError: empty, upside down, or not numbers.
     """
-    if isinstance(raw, Span | Choice):
+    if isinstance(raw, Quantity):
         return raw
     if isinstance(raw, Mapping):
         return _mapped(raw)
@@ -101,11 +97,15 @@ def quantity(raw: object) -> Quantity:
 
 def _mapped(raw: Mapping[Any, Any]) -> Quantity:
     """A quantity written as a mapping."""
+    if is_chance(raw):
+        chance = read_chance(raw)
+        return Span(*chance.numbers) if chance.kind == "uniform" else chance
     keys = set(raw)
     if keys == {"values"} and isinstance(raw["values"], list | tuple) and raw["values"]:
         return Choice(tuple(number(v) for v in raw["values"]))
     if keys not in ({"from", "to", "by"}, {"from", "to", "count"}):
-        cure = "write [lo, hi], {values: [a, b, ...]}, or {from: lo, to: hi, by: step}"
+        cure = "write [lo, hi], {values: [a, b, ...]}, {from: lo, to: hi, by: step} "
+        cure += "or {normal: {mean: 1, sd: 0.1}}"
         raise StudyError("is no quantity", value=dict(raw), cure=cure)
     low, high = number(raw["from"]), number(raw["to"])
     if low >= high:

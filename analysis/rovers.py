@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rover_pin.analysis.spec import StudySpec
+from rover_pin.analysis.weights import masses_of
 
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
@@ -16,27 +17,39 @@ KEPT = 32
 
 
 class Rovers:
-    """A rover under different parameters, the latest kept: cases that share parameters share a rover."""
+    """A rover under different parameters and masses, the latest kept: cases that share them share a rover."""
 
     def __init__(self, base: Rover) -> None:
         self.base = base
         self._kept: OrderedDict[tuple[tuple[str, float], ...], Rover] = OrderedDict()
 
-    def __call__(self, parameters: Mapping[str, float]) -> Rover:
-        """The rover with these parameters.
+    def __call__(self, parameters: Mapping[str, float], weights: Mapping[str, float] | None = None) -> Rover:
+        """The rover with these parameters, and with masses named as in `weights.py`.
 
         Raises:
-            InputError: parameters that the rover cannot have.
+            InputError: parameters or masses that the rover cannot have.
         """
-        if not parameters:
+        if not parameters and not weights:
             return self.base
-        key = tuple(parameters.items())
+        key = (*parameters.items(), *(weights or {}).items())
         if key not in self._kept:
-            self._kept[key] = self.base.with_parameters(**parameters)
+            rover = self.base.with_parameters(**parameters) if parameters else self.base
+            self._kept[key] = weighed(rover, weights) if weights else rover
         self._kept.move_to_end(key)
         if len(self._kept) > KEPT:
             self._kept.popitem(last=False)
         return self._kept[key]
+
+
+def weighed(rover: Rover, weights: Mapping[str, float]) -> Rover:
+    """The rover with a case's masses, what varies of the payload on top of the study's.
+
+    Raises:
+        InputError: masses that the rover cannot have.
+    """
+    masses, payload = masses_of(weights)
+    rover = rover.with_masses(masses) if masses else rover
+    return rover.with_payload(payload) if payload else rover
 
 
 def load_from(spec: StudySpec, folder: Path) -> Rover:

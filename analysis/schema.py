@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_pin.analysis import weights
 from rover_pin.analysis.carrying import load_spread, touching
 from rover_pin.analysis.cases import POSTURE, Cases
 from rover_pin.analysis.found import Found
@@ -185,6 +186,11 @@ def _asked(cases: Cases, taken: set[str], units: Mapping[str, str]) -> Iterator[
         yield Variable(
             POSTURE, (CASE,), attrs, lambda block: Words.picked(block.cases.posture, known), "S", width, True
         )
+    for name in cases.weights:
+        spoken, measured_in, meaning = weights.about(name)
+        own = spoken if spoken not in taken else f"vary_{spoken}"
+        yield number(own, lambda drawn, name=name: drawn.weights[name], units=measured_in, long_name=meaning)  # type: ignore[misc]
+        taken = taken | {own}
     for name in cases.parameters:
         own = name if name not in taken else f"parameter_{name}"
         unit = {"units": units[name]} if units.get(name) else {}

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rover_pin.analysis.cases import Cases
+from rover_pin.analysis.chance import Chance
 from rover_pin.analysis.draw import draw
 from rover_pin.analysis.figures import figures
 from rover_pin.analysis.job import Job, Runner
@@ -50,6 +51,7 @@ class TrialCases:
             friction=None if own.friction is None else own.friction[at],
             parameters={name: np.array([self.designs[t][name] for t in trial]) for name in names},
             joints={name: values[at] for name, values in own.joints.items()},
+            weights={name: values[at] for name, values in own.weights.items()},
         )
 
 
@@ -165,6 +167,8 @@ def _within(asked: Quantity, value: float) -> float:
     """The value a quantity has that is nearest to one."""
     if isinstance(asked, Span):
         return min(max(value, asked.low), asked.high)
+    if isinstance(asked, Chance):
+        return min(max(value, asked.ends[0]), asked.ends[1])
     return min(asked.values, key=lambda each: abs(each - value))
 
 
@@ -172,6 +176,8 @@ def _distribution(optuna: Any, asked: Quantity) -> Any:
     """The quantity in the words of Optuna."""
     if isinstance(asked, Span):
         return optuna.distributions.FloatDistribution(asked.low, asked.high)
+    if isinstance(asked, Chance):
+        return optuna.distributions.FloatDistribution(*asked.ends)
     return optuna.distributions.CategoricalDistribution(asked.values)
 
 

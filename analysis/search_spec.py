@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from rover_pin.analysis.quantities import number
+from rover_pin.analysis.finite import number
 from rover_pin.analysis.strict import Strict
 from rover_pin.errors import StudyError
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rover_pin.analysis.chance import Chance
 from rover_pin.analysis.quantities import Quantity, Span
 from rover_pin.numerics import Array
 
@@ -58,5 +59,7 @@ def spread(asked: Quantity, unit: Array) -> Array:
     """Numbers in [0, 1) spread over a quantity."""
     if isinstance(asked, Span):
         return asked.low + (asked.high - asked.low) * unit
+    if isinstance(asked, Chance):
+        return asked.spread(unit)
     values = np.asarray(asked.values)
     return values[np.minimum((unit * len(values)).astype(np.int64), len(values) - 1)]

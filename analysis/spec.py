@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, field_validator, model_validator
 
+from rover_pin.analysis.chance import KEYS
+from rover_pin.analysis.finite import number
 from rover_pin.analysis.ground import ground
 from rover_pin.analysis.measures import known_measures
 from rover_pin.analysis.quantities import (
@@ -22,6 +25,7 @@ from rover_pin.analysis.search_spec import SearchSpec
 from rover_pin.analysis.strict import Strict, checked
 from rover_pin.analysis.words import gravity, posture
 from rover_pin.analysis.yaml_file import read_mapping
+from rover_pin.description.masses import ROBOT
 from rover_pin.errors import StudyError, nearest
 
 MOST_CASES = 2**30
@@ -44,14 +48,17 @@ CHEAP = ("loads", "polygon", "tip", "force_angle", "energy", "zmp", "clearance")
 class CasesSpec(Strict):
     """How cases are drawn.
 
-    `sobol`: n scrambled Sobol points of `seed` over everything that varies. `grid`: every combination, ranges
+    `random`: n independent draws. `saltelli`: n blocks, a power of two, of D + 2 cases each that change
+    one of
+    the D things that vary at a time, for Sobol indices. `sobol`: n scrambled Sobol points of `seed` over
+    everything that varies. `grid`: every combination, ranges
     cut into the counts of `grid` (by the quantity's name), or into one common count so that there are at
     most n cases; where both are silent one range is cut into 41, two into 21 each. `sensitivity`: one design,
     and each of the parameters `to` (all where silent) moved from it alone by the share `step` of its value.
     A bare word is a sampler.
     """
 
-    sampler: Literal["sobol", "grid", "sensitivity"] = "sobol"
+    sampler: Literal["sobol", "random", "saltelli", "grid", "sensitivity"] = "sobol"
     n: int | None = Field(default=None, ge=1, le=MOST_CASES)
     seed: int = Field(default=0, ge=0)
     grid: dict[str, Annotated[int, Field(ge=1)]] | None = None
@@ -88,12 +95,43 @@ class CasesSpec(Strict):
 
     @property
     def number(self) -> int:
-        """The number of cases asked for (the most, under a grid)."""
-        return 10_000 if self.n is None else self.n
+        """The number of cases asked for (the most, under a grid), or of blocks."""
+        silent = 1024 if self.sampler == "saltelli" else 10_000
+        return silent if self.n is None else self.n
+
+
+class ShiftSpec(Strict):
+    """How far a centre of mass is moved, m."""
+
+    x: OptionalField = None
+    y: OptionalField = None
+    z: OptionalField = None
+
+
+class CarriedSpec(ShiftSpec):
+    """A mass [kg] at a point of the base [m] that varies, on top of the study's payload."""
+
+    kg: QuantityField
+
+    @field_validator("kg")
+    @classmethod
+    def _mass(cls, given: Quantity) -> Quantity:
+        if given.support[0] < 0:
+            raise StudyError("may be below zero", value=given.support[0], cure=BOUND)
+        return given
+
+
+BOUND = "give bounds, as {normal: {mean: 10, sd: 1, bounds: [7, 13]}}"
 
 
 class VarySpec(Strict):
-    """What varies: x, y [m], yaw [deg], postures, parameters, joints [rad or m], friction.
+    """What varies: x, y [m], yaw [deg], postures, parameters, joints [rad or m], friction, masses.
+
+    `mass`: kg, of links by name or of the whole `robot` (all links scaled alike; the word alone may be
+    left out);
+    `com`: how far the centre of mass of a link is moved in the link's frame, of the `robot` in the root
+    link's;
+    `payload`: on the base.
 
     What is silent does not vary: the middle of the map (the origin where it has no edge), heading 0, home,
     declared parameters and friction.
@@ -106,6 +144,28 @@ class VarySpec(Strict):
     parameters: dict[str, QuantityField] = Field(default_factory=dict)
     joints: dict[str, QuantityField] = Field(default_factory=dict)
     friction: OptionalField = None
+    mass: dict[str, QuantityField] = Field(default_factory=dict)
+    com: dict[str, ShiftSpec] = Field(default_factory=dict)
+    payload: CarriedSpec | None = None
+
+    @field_validator("mass", mode="before")
+    @classmethod
+    def _whole(cls, raw: Any) -> Any:
+        """A quantity instead of quantities by link is the robot's."""
+        words = (
+            isinstance(raw, Mapping)
+            and bool(raw)
+            and set(raw) <= {*KEYS, "values", "from", "to", "by", "count"}
+        )
+        return {ROBOT: raw} if raw is not None and (words or not isinstance(raw, Mapping)) else raw
+
+    @field_validator("mass")
+    @classmethod
+    def _masses(cls, given: dict[str, Quantity]) -> dict[str, Quantity]:
+        for name, asked in given.items():
+            if asked.support[0] < 0 or asked.ends[0] <= 0:
+                raise StudyError("may be zero or less", element=name, value=asked.support[0], cure=BOUND)
+        return given
 
     @field_validator("posture", mode="before")
     @classmethod
@@ -121,16 +181,27 @@ class VarySpec(Strict):
     @field_validator("friction")
     @classmethod
     def _positive(cls, given: Quantity | None) -> Quantity | None:
-        if given is not None and given.ends[0] <= 0:
-            raise StudyError("must be more than zero", value=given.ends[0])
+        if given is not None and (given.support[0] < 0 or given.ends[0] <= 0):
+            raise StudyError("must be more than zero", value=given.support[0])
         return given
 
 
+def _seat(raw: Any) -> Any:
+    if isinstance(raw, str):
+        return raw
+    if not isinstance(raw, list | tuple) or len(raw) != 3:
+        raise StudyError("is no place", value=raw, cure="write [x, y, z] in m, or a link's name")
+    return tuple(number(part) for part in raw)
+
+
+Seat = Annotated[Any, BeforeValidator(_seat)]
+
+
 class PayloadSpec(Strict):
-    """A mass [kg] at a point of the base [m]."""
+    """A mass [kg] at a point of the base [m], or at the origin of a link."""
 
     kg: float = Field(gt=0)
-    at: tuple[float, float, float]
+    at: Seat
 
 
 def _measures(raw: Any) -> Any:

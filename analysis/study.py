@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from rover_pin.analysis.engines import Resources, engine
 from rover_pin.analysis.given import GivenTerrain, as_text
+from rover_pin.analysis.ground import Ground
 from rover_pin.analysis.job import Chunk, Runner
 from rover_pin.analysis.parts import Parts
 from rover_pin.analysis.plan import Plan, plan
@@ -24,6 +25,7 @@ from rover_pin.errors import StudyError
 if TYPE_CHECKING:
     import xarray as xr
 
+    from rover_pin.description.recipe import Payload
     from rover_pin.rover import Rover
     from rover_pin.statics.stance import Stance
     from rover_pin.terrain import Terrain
@@ -128,6 +130,30 @@ class Study:
             attrs = data.attrs
         text, folder = str(attrs["study"]), str(attrs["study_folder"])
         return cls.from_text(text, file="the result's study", folder=folder)
+
+    def altered(self, *, payload: Sequence[Payload] = (), **keys: Any) -> Study:
+        """The same study with some of the study file's keys said otherwise, and further payload.
+
+        Its text, and so the result's provenance, says what was changed.
+
+        Args:
+            payload: (kg, place) as for `Rover.with_payload`, on top of the study's own.
+            keys: as in a study file; `terrain` may be a Terrain.
+
+        Raises:
+            StudyError: a value that cannot be used.
+        """
+        raw = {**parse_mapping(self.text, self.file), **keys}
+        if payload:
+            more = [{"kg": kg, "at": at if isinstance(at, str) else list(at)} for kg, at in payload]
+            raw["payload"] = [*(raw.get("payload") or ()), *more]
+        text = as_text(raw)
+        ground = keys.get("terrain", self.spec.terrain)
+        raw["terrain"] = ground if isinstance(ground, str | Mapping | Ground) else GivenTerrain(given=ground)
+        study = type(self).__new__(type(self))
+        given = None if "robot" in keys else self._given
+        study._take(checked(StudySpec, raw, file=self.file), text, self.file, self.folder, given)
+        return study
 
     @cached_property
     def plan(self) -> Plan:

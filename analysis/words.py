@@ -4,11 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from rover_pin.analysis.quantities import number
+from rover_pin.analysis.finite import number
 from rover_pin.errors import InputError, StudyError, nearest
 
-GRAVITIES: Mapping[str, float] = {"earth": 9.81, "moon": 1.62, "mars": 3.71}
-"""Surface gravity, m/s2."""
+GRAVITIES: Mapping[str, float] = {
+    "mercury": 3.70,
+    "venus": 8.87,
+    "earth": 9.81,
+    "moon": 1.62,
+    "mars": 3.71,
+    "ceres": 0.28,
+    "europa": 1.31,
+    "titan": 1.35,
+}
+"""Surface gravity, m/s2 (NASA's planetary fact sheets)."""
 
 
 def gravity(raw: object) -> float:

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from rover_pin.mechanism import JointSpring
+from rover_pin.payload import told
 
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
@@ -24,6 +25,7 @@ def info(rover: Rover) -> dict[str, Any]:
     return {
         "robot": rover.name,
         "mass_kg": rover.mass,
+        "payload": told(rover.recipe.payload),
         "joints": {
             name: {
                 "actuated": name in rover.actuated,

@@ -15,6 +15,7 @@ from rover_pin.description.couplings import gather_couplings
 from rover_pin.description.expand import expand, refuse_undeclared
 from rover_pin.description.geometry import read_geometry
 from rover_pin.description.gepetto import stands_in
+from rover_pin.description.masses import Masses
 from rover_pin.description.mjcf import Converted, convert, is_mjcf
 from rover_pin.description.model import BASE_DOF, build_model, joint_names, set_limits
 from rover_pin.description.notes import Notes
@@ -74,7 +75,7 @@ def load_bare(path: Path, packages: Mapping[str, str], skip_missing_includes: bo
 
 
 def reload(recipe: Recipe, parameters: Mapping[str, float]) -> Rover:
-    """A rover read anew from its files, with some parameters changed and its payload put back.
+    """A rover read anew from its files, with some parameters changed, its masses and payload put back.
 
     Raises:
         InputError: as `load`.
@@ -87,6 +88,12 @@ def reload(recipe: Recipe, parameters: Mapping[str, float]) -> Rover:
         recipe.skip_missing_includes,
         {**recipe.parameters, **parameters},
     )
+    return _weighed(rover, recipe)
+
+
+def _weighed(rover: Rover, recipe: Recipe) -> Rover:
+    """The rover with a recipe's masses, and its payload on top."""
+    rover = rover.with_masses(recipe.masses) if recipe.masses else rover
     return rover.with_payload(recipe.payload) if recipe.payload else rover
 
 
@@ -182,14 +189,13 @@ def assemble(recipe: Recipe) -> Rover:
         feet=touching.feet,
         belly=touching.belly,
         postures=checked_postures(sidecar, columns, made.held, limits, notes, file),
-        recipe=dataclasses.replace(recipe, payload=()),
+        recipe=dataclasses.replace(recipe, payload=(), masses=Masses()),
         loading_notes=notes.lines(),
         read_geometry=functools.cache(
             lambda: read_geometry(made.tree, model, meshes.resolve, touching.wheel_links, meshes.advice)
         ),
     )
-    rover = _with_tracks(rover, sidecar)
-    return rover.with_payload(recipe.payload) if recipe.payload else rover
+    return _weighed(_with_tracks(rover, sidecar), recipe)
 
 
 def _with_tracks(rover: Rover, sidecar: Sidecar) -> Rover:

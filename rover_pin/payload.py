@@ -1,43 +1,70 @@
-"""Masses put on a rover's base."""
+"""Masses put on a rover: at a place of its base, or at the origin of one of its links."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import pinocchio as pin
 
 from rover_pin.description.recipe import Payload
 from rover_pin.errors import InputError
+from rover_pin.mechanism.frames import find_frame
 
 
-def put_on_base(
-    model: pin.Model, root: str, payload: Sequence[Payload]
-) -> tuple[pin.Model, tuple[Payload, ...]]:
-    """A copy of the model with point masses on its base, and the masses as plain numbers.
+def put_on(model: pin.Model, root: str, payload: Sequence[Payload]) -> tuple[pin.Model, tuple[Payload, ...]]:
+    """A copy of the model with point masses on it, and the masses as plain numbers and links.
 
     Args:
         model: Pinocchio's model; left as it is.
-        root: the URDF's root link, in whose frame the places are.
-        payload: (kg, (x, y, z) in m).
+        root: the URDF's root link, in whose frame places are.
+        payload: (kg, (x, y, z) in m), or (kg, name of a link or joint).
 
     Raises:
-        InputError: a mass below zero, or something that is no finite number.
+        InputError: a mass below zero, something that is no finite number, or no such link or joint.
     """
     loaded = model.copy()
-    frame = loaded.frames[loaded.getFrameId(root, pin.FrameType.BODY)]
-    checked: list[Payload] = []
-    for kg, place in payload:
-        numbers = np.array([kg, *place], dtype=float)
-        if numbers.shape != (4,) or not np.isfinite(numbers).all() or numbers[0] < 0:
-            raise InputError(
-                "not a mass at a place",
-                element="payload",
-                value=f"{kg} at {place}",
-                cure="give kg >= 0 and x, y, z in m",
-            )
-        mass, x, y, z = map(float, numbers)
-        body = pin.Inertia(mass, np.array([x, y, z]), np.zeros((3, 3)))
+    checked = tuple(_checked(model, kg, place) for kg, place in payload)
+    for mass, place in checked:
+        link, point = (place, (0.0, 0.0, 0.0)) if isinstance(place, str) else (root, place)
+        frame = loaded.frames[loaded.getFrameId(link, pin.FrameType.BODY)]
+        body = pin.Inertia(mass, np.array(point), np.zeros((3, 3)))
         loaded.appendBodyToJoint(frame.parentJoint, body, frame.placement)
-        checked.append((mass, (x, y, z)))
-    return loaded, tuple(checked)
+    return loaded, checked
+
+
+def told(payload: Sequence[Payload]) -> str:
+    """Payloads in the words of `--payload`: `5@0,0,0.3; 2@arm`; empty where there are none."""
+    return "; ".join(
+        f"{kg!r}@{place if isinstance(place, str) else ','.join(map(repr, place))}" for kg, place in payload
+    )
+
+
+def _checked(model: pin.Model, kg: float, place: Any) -> Payload:
+    named = isinstance(place, str)
+    try:
+        numbers = np.array([kg] if named else [kg, *place], dtype=float)
+    except (TypeError, ValueError):
+        numbers = np.array([np.nan])
+    if numbers.shape != (1 if named else 4,) or not np.isfinite(numbers).all() or numbers[0] < 0:
+        raise InputError(
+            "not a mass at a place",
+            element="payload",
+            value=f"{kg} at {place}",
+            cure="give kg >= 0 and x, y, z in m, or a link's name",
+        )
+    if named:
+        return float(kg), _link(model, place)
+    mass, x, y, z = map(float, numbers)
+    return mass, (x, y, z)
+
+
+def _link(model: pin.Model, name: str) -> str:
+    """The link of that name, or the one a joint of that name moves."""
+    found = find_frame(model, name, element="payload")
+    if found.type == pin.FrameType.BODY:
+        return name
+    joint = next(k for k, frame in enumerate(model.frames) if frame.name == name and frame.type == found.type)
+    links = [f.name for f in model.frames if f.type == pin.FrameType.BODY and f.parentFrame == joint]
+    return str(links[0])

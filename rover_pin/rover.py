@@ -16,6 +16,7 @@ import pinocchio as pin
 
 from rover_pin.contact import Foot, Wheel
 from rover_pin.description.geometry import BodyPoint, Geometry, Visual
+from rover_pin.description.masses import Masses
 from rover_pin.description.model import BASE_DOF
 from rover_pin.description.recipe import Payload, Recipe
 from rover_pin.info import describe, info
@@ -23,8 +24,10 @@ from rover_pin.mechanism import Coupling, FrameSpring, Loop, OneSided, Spring, T
 from rover_pin.mechanism.frames import find_frame
 from rover_pin.mobility import Mobility, measure_mobility
 from rover_pin.numerics import Array, frozen
-from rover_pin.payload import put_on_base
+from rover_pin.payload import put_on
 from rover_pin.posture import resolve_posture
+from rover_pin.reweighed import bodies_of, reweigh
+from rover_pin.weighing import Body
 
 if TYPE_CHECKING:
     from rover_pin.statics.stance import Stance
@@ -225,14 +228,36 @@ class Rover:
         return frozen(jacobian)
 
     def with_payload(self, payload: Sequence[Payload]) -> Rover:
-        """The same rover with point masses on its base: (kg, (x, y, z) in the root link's frame).
+        """The same rover with point masses on it: (kg, (x, y, z) in the root link's frame [m]) or (kg, link).
+
+        A mass on a link or joint sits at its origin and moves with it.
 
         Raises:
-            InputError: a mass below zero, or something that is no finite number.
+            InputError: a mass below zero, something that is no finite number, or no such link or joint.
         """
-        model, checked = put_on_base(self.model, self.root, payload)
+        model, checked = put_on(self.model, self.root, payload)
         recipe = dataclasses.replace(self.recipe, payload=(*self.recipe.payload, *checked))
         return dataclasses.replace(self, model=model, recipe=recipe)
+
+    @cached_property
+    def bodies(self) -> Mapping[str, Body]:
+        """Every link as it is fixed to its joint, its mass that of the files."""
+        return MappingProxyType(bodies_of(self.model, self.urdf, str(self.source)))
+
+    def with_masses(self, masses: Masses) -> Rover:
+        """The same rover with other masses of links or of the whole, counted from its files; payload stays.
+
+        Inertias about centres of mass grow with the masses. Other masses given before are forgotten.
+
+        Raises:
+            InputError: a link that is not there, a number that no mass has, or masses that no rover can have.
+        """
+        if self.recipe.masses:
+            from rover_pin.loader import assemble
+
+            return assemble(dataclasses.replace(self.recipe, masses=masses))
+        recipe = dataclasses.replace(self.recipe, masses=masses)
+        return dataclasses.replace(self, model=reweigh(self, masses), recipe=recipe)
 
     def with_parameters(self, **parameters: float) -> Rover:
         """The same rover with other parameter values, read anew from its files.

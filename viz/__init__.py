@@ -10,13 +10,17 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from rover_pin.viz.browser import save_png as save_png
+    from rover_pin.viz.comparison import plot_pair as plot_pair
+    from rover_pin.viz.comparison import plot_spreads as plot_spreads
     from rover_pin.viz.mobility import plot_mobility as plot_mobility
     from rover_pin.viz.motion import motion_page as motion_page
     from rover_pin.viz.motion import save_motion_html as save_motion_html
     from rover_pin.viz.motion import save_motion_png as save_motion_png
     from rover_pin.viz.motion_plots import plot_run as plot_run
+    from rover_pin.viz.page.compare import save_comparison_page as save_comparison_page
     from rover_pin.viz.page.search import save_search_page as save_search_page
     from rover_pin.viz.page.sensitivity import save_sensitivity_page as save_sensitivity_page
+    from rover_pin.viz.page.several import exact_cases as exact_cases
     from rover_pin.viz.page.study import save_study_page as save_study_page
     from rover_pin.viz.page.study import worst_cases as worst_cases
     from rover_pin.viz.plots import plot_distributions as plot_distributions
@@ -30,12 +34,16 @@ if TYPE_CHECKING:
 
 _HOME = {
     "draw": "scene",
+    "exact_cases": "page.several",
     "motion_page": "motion",
     "plot_distributions": "plots",
     "plot_map": "plots",
     "plot_mobility": "mobility",
+    "plot_pair": "comparison",
     "plot_run": "motion_plots",
     "plot_slopes": "slopes",
+    "plot_spreads": "comparison",
+    "save_comparison_page": "page.compare",
     "save_html": "show",
     "save_motion_html": "motion",
     "save_motion_png": "motion",

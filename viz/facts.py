@@ -9,6 +9,7 @@ import numpy as np
 
 from rover_pin.viz.arrows import lightest
 from rover_pin.viz.scene import span_of
+from rover_pin.viz.support import corners, limiting_edge
 from rover_pin.viz.units import ranked, shown, title_of
 
 if TYPE_CHECKING:
@@ -63,6 +64,8 @@ def facts(stance: Stance, margins: Mapping[str, Margin], drawn: Drawn) -> dict[s
         "contour_m": drawn.contour_m,
         "unread": list(drawn.unread),
         "labels": _labels(stance),
+        "springs": _springs(stance),
+        "slack": _slack(stance),
         "target": [float(part) for part in stance.com],
         "yaw": float(stance.rpy[2]),
         "span": span_of(stance.rover),
@@ -97,6 +100,40 @@ def _pose(stance: Stance) -> list[dict[str, Any]]:
         else:
             rows.append({"name": name, "value": float(np.degrees(value)), "unit": "°"})
     return rows
+
+
+def edge_label(stance: Stance, limiting: str | None) -> dict[str, Any] | None:
+    """The name of the marked edge of the support polygon, and its middle, m; None where there is none."""
+    edge = limiting_edge(stance, limiting) if stance.settled else None
+    if edge is None:
+        return None
+    ring = corners(stance)
+    a, b = ring[edge], ring[(edge + 1) % len(ring)]
+    return {"at": [float(part) for part in (a.point + b.point) / 2], "name": f"{a.wheel}–{b.wheel}"}
+
+
+def _springs(stance: Stance) -> list[dict[str, Any]]:
+    """Each spring's force, N, or torque, N m, and each track's tension."""
+    from rover_pin.viz.tree import joint_nodes
+
+    turning = {node.name for node in joint_nodes(stance.rover.model) if node.fixed and not node.slides}
+    rows = []
+    for spring in stance.rover.springs:
+        if spring.name in stance.springs:
+            unit = "N m" if getattr(spring, "joint", None) in turning else "N"
+            rows.append({"name": spring.name, "value": stance.springs[spring.name], "unit": unit})
+    tensions = getattr(stance, "tensions", {})
+    return rows + [{"name": name, "value": value, "unit": "N"} for name, value in tensions.items()]
+
+
+def _slack(stance: Stance) -> list[dict[str, Any]]:
+    """Slack of each track, m: what is drawn taut and is not."""
+    from rover_pin.mechanism import Kinematics
+
+    if not stance.rover.tracks:
+        return []
+    at = Kinematics(stance.rover.model, stance.rover.model.createData(), np.array(stance.configuration))
+    return [{"name": track.name, "slack": float(track.slack(at))} for track in stance.rover.tracks]
 
 
 def _labels(stance: Stance) -> list[dict[str, Any]]:

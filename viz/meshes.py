@@ -65,7 +65,7 @@ def _read_mesh(path: str) -> tuple[Array, Any]:
     try:
         mesh: Any = trimesh.load(path, force="mesh")
         if not len(mesh.faces):
-            raise ValueError("no faces")
+            mesh = _by_coal(path)
     except Exception as error:  # its readers raise whatever their formats' libraries raise
         raise InputError(
             "this mesh cannot be read", file=path, value=str(error), cure="convert it"
@@ -73,6 +73,18 @@ def _read_mesh(path: str) -> tuple[Array, Any]:
     if len(mesh.faces) < 60_000:
         mesh = trimesh.graph.smooth_shade(mesh, angle=np.radians(30))
     return np.asarray(mesh.vertices, dtype=np.float64), np.asarray(mesh.faces)
+
+
+def _by_coal(path: str) -> Any:
+    """The mesh as Pinocchio's collision library reads it: COLLADA files of which trimesh takes nothing."""
+    import coal
+    import trimesh
+
+    read = coal.MeshLoader().load(path, np.ones(3))
+    if not read.num_tris:
+        raise ValueError("no faces")
+    faces = [[read.tri_indices(i)[k] for k in range(3)] for i in range(read.num_tris)]
+    return trimesh.Trimesh(np.array(read.vertices()), np.array(faces))
 
 
 def ring_surface(shape: Any) -> Surface:

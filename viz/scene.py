@@ -1,12 +1,13 @@
 """A stance as a Meshcat scene, written through Meshcat's own Visualizer: every page shares it.
 
 Paths: `rover` with a node or two a joint (see tree), `rover/.../visuals/N` for looks, `ground`, `loads`,
-`tracks`, `springs`, `support/area`, `support/edges`, `com`.
+`tracks`, `springs`, `support/area`, `support/edges`, `support/region`, `com`.
 """
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,7 +18,7 @@ from rover_pin.errors import InputError
 from rover_pin.viz.arrows import load_arrows
 from rover_pin.viz.inside import struts, tracks
 from rover_pin.viz.meshes import bare_shapes, ring_surface, surface_object, visual_object
-from rover_pin.viz.support import com_marker, support_area, support_edges
+from rover_pin.viz.support import com_marker, region_edges, support_area, support_edges
 from rover_pin.viz.terrain_mesh import ground_surface
 from rover_pin.viz.tree import base_matrix, joint_nodes, turn
 
@@ -85,13 +86,21 @@ def pose_robot(visualizer: Any, stance: Stance) -> None:
         visualizer[node.path].set_transform(matrix)
 
 
-def draw(visualizer: Any, stance: Stance, *, limiting: str | None = None) -> Drawn:
+def draw(
+    visualizer: Any,
+    stance: Stance,
+    *,
+    limiting: str | None = None,
+    region: Sequence[tuple[float, float]] = (),
+) -> Drawn:
     """Write the whole scene of a stance.
 
     Args:
         visualizer: a meshcat.Visualizer, on a server or on a Recorder.
         stance: what to draw; one that did not settle has no loads, polygon or limiting edge.
         limiting: the edge to mark, "fl-ml"; else the one nearest the centre of mass.
+        region: corners (x, y) m, world, of where the centre of mass may go (a margin's `outline`); drawn at
+            the height of the contacts' mean.
 
     Returns:
         What a page should say of the picture.
@@ -103,8 +112,10 @@ def draw(visualizer: Any, stance: Stance, *, limiting: str | None = None) -> Dra
     ground, step = ground_surface(stance.terrain, float(stance.position[0]), float(stance.position[1]), span)
     visualizer["ground"].set_object(surface_object(ground))
 
-    for path, bars in (("tracks", tracks), ("springs", struts)):
-        surface = bars(stance.rover, stance.configuration, span)
+    for path, surface in (
+        ("tracks", tracks(stance.rover, stance.configuration, span, stance.terrain)),
+        ("springs", struts(stance.rover, stance.configuration, span)),
+    ):
         if len(surface.faces):
             visualizer[path].set_object(surface_object(surface))
 
@@ -115,6 +126,7 @@ def draw(visualizer: Any, stance: Stance, *, limiting: str | None = None) -> Dra
     if stance.settled:
         put("support/area", support_area(stance), 0.14)
         put("support/edges", support_edges(stance, span, limiting), 0.9)
+        put("support/region", region_edges(stance, span, region), 0.95)
         put("loads", load_arrows(stance, span), 0.95)
     put("com", com_marker(stance, span), 0.95)
     return Drawn(step, unread)

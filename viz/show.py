@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rover_pin.viz.facts import facts, margins_of
+from rover_pin.viz.facts import edge_label, facts, margins_of
 from rover_pin.viz.page.html import page, write_whole
 from rover_pin.viz.page.pack import Pack
 from rover_pin.viz.record import recording
@@ -30,8 +30,11 @@ def stance_page(stance: Stance, margins: Mapping[str, Margin] | None = None) -> 
         (m.limiting for name in ("polygon", "tip") if (m := known.get(name)) and m.limiting), None
     )
     visualizer, recorder = recording()
-    drawn = draw(visualizer, stance, limiting=limiting)
-    pack = Pack({"stance": facts(stance, known, drawn)}, {"commands": recorder.stream()})
+    region = next((known[name] for name in ("region", "feasible") if name in known), None)
+    outline = getattr(region, "outline", ())
+    drawn = draw(visualizer, stance, limiting=limiting, region=outline)
+    about = {**facts(stance, known, drawn), "edge": edge_label(stance, limiting), "region": outline}
+    pack = Pack({"stance": about}, {"commands": recorder.stream()})
     return page("stance", f"{stance.rover.name} on {stance.terrain.label}", pack)
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rover_pin.numerics import Array
-from rover_pin.viz.colours import COM, LIMIT, LOAD
+from rover_pin.viz.colours import COM, LIMIT, LOAD, REGION
 from rover_pin.viz.surfaces import Surface, ball, joined, tube
 
 if TYPE_CHECKING:
@@ -68,6 +69,16 @@ def support_edges(stance: Stance, span: float, named: str | None = None) -> Surf
         colour, radius = (LIMIT, 0.006) if i == limit else (LOAD, 0.0035)
         bars.append(tube(a.point, b.point, radius * span, colour))
     return joined(bars)
+
+
+def region_edges(stance: Stance, span: float, outline: Sequence[tuple[float, float]]) -> Surface:
+    """A region of the centre of mass, seen along gravity, as a closed line at the contacts' mean height."""
+    if len(outline) < 3 or not stance.contacts:
+        return joined([])
+    height = float(np.mean([contact.point[2] for contact in stance.contacts]))
+    ring = np.array([[x, y, height] for x, y in outline])
+    sides = zip(ring, np.roll(ring, -1, axis=0), strict=True)
+    return joined([tube(a, b, 0.0022 * span, REGION) for a, b in sides if np.linalg.norm(b - a) > 1e-9])
 
 
 def support_area(stance: Stance) -> Surface:

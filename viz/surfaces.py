@@ -91,3 +91,28 @@ def ring_profile(ring: float, tread: float, steps: int = 10) -> Array:
     angles = np.linspace(-np.pi / 2, np.pi / 2, 2 * steps + 1)
     arc = np.column_stack([ring + tread * np.cos(angles), tread * np.sin(angles)])
     return np.vstack([[0.0, -tread], arc, [0.0, tread]]) if ring > 0 else arc
+
+
+def rope(points: Array, radius: float, colour: RGB, segments: int = 6) -> Surface:
+    """A round bar along a polyline (n, 3) whose points differ from their neighbours."""
+    ways = np.gradient(points, axis=0)
+    ways /= np.linalg.norm(ways, axis=1)[:, None]
+    side = frame_along(ways[0])[:, 0]
+    rings = []
+    angles = np.linspace(0.0, 2 * np.pi, segments + 1)[:, None]
+    for point, way in zip(points, ways, strict=True):
+        side = side - (side @ way) * way
+        side /= np.linalg.norm(side)
+        rings.append(point + radius * (np.cos(angles) * side + np.sin(angles) * np.cross(way, side)))
+    return sheet(np.array(rings), np.tile(colour, (len(points), 1)))
+
+
+def sheet(rows: Array, colours: Array) -> Surface:
+    """Rows (n, k, 3) of points joined to a mesh, one colour (n, 3) a row."""
+    count, across = rows.shape[:2]
+    i, j = np.meshgrid(np.arange(count - 1), np.arange(across - 1), indexing="ij")
+    a = (i * across + j).ravel()
+    faces = np.concatenate(
+        [np.stack([a, a + 1, a + across], 1), np.stack([a + 1, a + across + 1, a + across], 1)]
+    )
+    return Surface(rows.reshape(-1, 3), faces, np.repeat(colours, across, axis=0))

@@ -17,6 +17,7 @@ from rover_pin.analysis.mobility.survey import Survey
 from rover_pin.analysis.provenance import git_state, versions
 from rover_pin.analysis.rows import Columns
 from rover_pin.analysis.store import atomically
+from rover_pin.payload import told
 from rover_pin.stability.registry import MEASURES
 
 CELL = ("y", "x")
@@ -70,6 +71,7 @@ def _attributes(survey: Survey, to_plain_path: int) -> dict[str, Any]:
         "interpolation": terrain.interpolation,
         "spacing": float(terrain.spacing),
         "gravity": survey.gravity,
+        "payload": told(rover.recipe.payload),
         "measure": survey.measure,
         "headings": len(survey.yaw),
         "cases": len(survey.y) * survey.cases_a_row,

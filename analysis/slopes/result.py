@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from rover_pin.analysis.provenance import git_state, versions
+from rover_pin.payload import told as payload_told
 
 if TYPE_CHECKING:
     from rover_pin.analysis.slopes.tilt_table import Limits
@@ -68,6 +69,7 @@ def as_dataset(
             "joints": ", ".join(f"{name}={value!r}" for name, value in (how["joints"] or {}).items()),
             "locks": ", ".join(how["locks"]),
             "gravity": how["gravity"],
+            "payload": payload_told(rover.recipe.payload),
             "friction": "as declared" if friction is None else float(friction),
             "rover_pin_git_commit": commit,
             "rover_pin_git_state": state,

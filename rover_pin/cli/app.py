@@ -5,6 +5,7 @@ from __future__ import annotations
 import typer
 
 from rover_pin.cli.bench import bench
+from rover_pin.cli.compare import compare
 from rover_pin.cli.info import info
 from rover_pin.cli.init import init
 from rover_pin.cli.mobility import mobility
@@ -23,5 +24,5 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
-for command in (robots, info, settle, study, search, view, init, mobility, slopes, reproduce, bench):
+for command in (robots, info, settle, study, compare, search, view, init, mobility, slopes, reproduce, bench):
     app.command()(command)

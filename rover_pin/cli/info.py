@@ -5,7 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from rover_pin.cli.options import Json, Packages, Parameters, Robot, Sidecar, SkipIncludes, load_rover
+from rover_pin.cli.options import (
+    Gravity,
+    Json,
+    Packages,
+    Parameters,
+    Payload,
+    Robot,
+    Sidecar,
+    SkipIncludes,
+    load_rover,
+    loaded,
+)
 
 
 def info(
@@ -14,12 +25,17 @@ def info(
     package: Packages = None,
     skip_missing_includes: SkipIncludes = False,
     param: Parameters = None,
+    gravity: Gravity = "earth",
+    payload: Payload = None,
     json: Json = False,
 ) -> None:
-    """Mass, joints, loops, rank and mobility, wheels, what the loader dropped."""
+    """Mass and weight, joints, loops, rank and mobility, wheels, what the loader dropped."""
+    from rover_pin.analysis.words import gravity as parse_gravity
     from rover_pin.cli.output import print_json
 
-    facts = load_rover(robot, sidecar, package, skip_missing_includes, param).info()
+    pull = parse_gravity(gravity)
+    rover = loaded(load_rover(robot, sidecar, package, skip_missing_includes, param), payload)
+    facts = {**rover.info(), "gravity": pull, "weight_n": rover.mass * pull}
     if json:
         print_json(facts)
     else:
@@ -30,7 +46,13 @@ def _print(facts: Mapping[str, Any]) -> None:
     """The facts for people."""
     from rover_pin.cli.output import figure, line, new_table, print_table
 
-    line(f"{facts['robot']}: {facts['mass_kg']:.6g} kg, mobility {facts['mobility']}, rank {facts['rank']}")
+    line(
+        f"{facts['robot']}: {facts['mass_kg']:.6g} kg "
+        f"({facts['weight_n']:.6g} N at {facts['gravity']:g} m/s2), "
+        f"mobility {facts['mobility']}, rank {facts['rank']}"
+    )
+    if facts["payload"]:
+        line(f"payload: {facts['payload']}")
     joints = new_table("", "joint", "", "lower", "upper", left=2)
     for name, joint in facts["joints"].items():
         limits = (figure(joint["lower"]), figure(joint["upper"]))

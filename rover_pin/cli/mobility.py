@@ -9,14 +9,17 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rover_pin.cli.options import (
+    Gravity,
     HeightOffset,
     HeightScale,
     Json,
     Packages,
     Parameters,
+    Payload,
     Sidecar,
     SkipIncludes,
     load_rover,
+    loaded,
 )
 
 if TYPE_CHECKING:
@@ -51,7 +54,8 @@ def mobility(
     workers: Annotated[
         int | None, typer.Option(help="Worker processes; silent: one a core.", metavar="N")
     ] = None,
-    gravity: Annotated[str, typer.Option(help="m/s2, or earth, moon, mars.")] = "earth",
+    gravity: Gravity = "earth",
+    payload: Payload = None,
     out: Annotated[
         Path | None,
         typer.Option("--out", "-o", help="Result, netCDF; silent: MAP_mobility.nc here.", metavar="OUT.nc"),
@@ -75,7 +79,7 @@ def mobility(
     check_outputs(path, tiff, png)
     pull = parse_gravity(gravity)
     ground = Terrain.parse(map_file, spacing, interpolation, height_scale, height_offset)
-    rover = load_rover(robot, sidecar, package, skip_missing_includes, param)
+    rover = loaded(load_rover(robot, sidecar, package, skip_missing_includes, param), payload)
     announce_compilation(batch=True)
     started = time.perf_counter()
     try:

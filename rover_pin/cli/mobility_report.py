@@ -25,7 +25,10 @@ def mobility_object(
     """What `mobility --json` prints."""
     value = data["worst"].attrs
     return {
-        **{name: data.attrs[name] for name in ("robot", "terrain", "measure", "headings", "cases")},
+        **{
+            name: data.attrs[name]
+            for name in ("robot", "terrain", "gravity", "payload", "measure", "headings", "cases")
+        },
         "unit": value["units"],
         "better": value["better"],
         "cells": {

@@ -12,6 +12,8 @@ import typer
 from rover_pin.errors import InputError
 
 if TYPE_CHECKING:
+    from rover_pin.analysis.study import Study
+    from rover_pin.description.recipe import Payload as Load
     from rover_pin.rover import Rover
 
 RESERVED = {"name_or_path", "sidecar", "packages", "skip_missing_includes"}
@@ -34,6 +36,15 @@ HeightScale = Annotated[
     float | None, typer.Option(help="Metres a grey level of a PNG, or a unit of another map.", metavar="M")
 ]
 HeightOffset = Annotated[float, typer.Option(help="Height where the map holds 0, m.", metavar="M")]
+Gravity = Annotated[str, typer.Option(help="m/s2, or earth, moon, mars, ...", metavar="G")]
+OwnGravity = Annotated[
+    str | None,
+    typer.Option("--gravity", help="m/s2, or earth, moon, mars, ...; silent: as the file says.", metavar="G"),
+]
+Payload = Annotated[
+    list[str] | None,
+    typer.Option("--payload", help="Mass on the base, or at a link's origin.", metavar="KG[@X,Y,Z|@FRAME]"),
+]
 Json = Annotated[bool, typer.Option("--json", help="One JSON object instead of a table.")]
 
 
@@ -89,21 +100,39 @@ def place(word: str) -> tuple[float, float, float]:
     return x, y, math.radians(yaw)
 
 
-def payload(word: str) -> tuple[float, tuple[float, float, float]]:
-    """`KG@X,Y,Z` as a mass and a point on the base.
+def payload(word: str) -> Load:
+    """`KG` at the origin of the base, `KG@X,Y,Z` at a place of the base, `KG@FRAME` at a link or joint.
 
     Raises:
         InputError: not of that form, or no positive mass.
     """
-    mass, sign, point = word.partition("@")
-    parts = point.split(",")
-    if not sign or len(parts) != 3:
-        raise InputError("is not KG@X,Y,Z", element="--payload", value=word, cure="write --payload 5@0,0,0.3")
+    mass, sign, place = word.partition("@")
     kg = number(mass, "--payload")
     if kg <= 0:
         raise InputError("mass must be more than zero", element="--payload", value=word)
+    parts = place.split(",")
+    if sign and (not place.strip() or len(parts) not in (1, 3) or (len(parts) == 1 and _numeric(place))):
+        cure = "write --payload 5@0,0,0.3, or 5@ and a link's name"
+        raise InputError("is not KG@X,Y,Z or KG@FRAME", element="--payload", value=word, cure=cure)
+    if not sign:
+        return kg, (0.0, 0.0, 0.0)
+    if len(parts) == 1:
+        return kg, place
     x, y, z = (number(part, "--payload") for part in parts)
     return kg, (x, y, z)
+
+
+def _numeric(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
+def payloads(words: Sequence[str] | None) -> list[Load]:
+    """What `--payload` words say, in order."""
+    return [payload(word) for word in words or ()]
 
 
 def load_rover(
@@ -140,8 +169,21 @@ def loaded(rover: Rover, words: Sequence[str] | None) -> Rover:
     Raises:
         InputError: a word that is no payload.
     """
-    loads = [payload(word) for word in words or ()]
+    loads = payloads(words)
     return rover.with_payload(loads) if loads else rover
+
+
+def altered(study: Study, gravity: str | None, payload: Sequence[str] | None) -> Study:
+    """The study under the gravity and with the further payload that options say.
+
+    Raises:
+        InputError: a word that is neither.
+    """
+    from rover_pin.analysis.words import gravity as parse_gravity
+
+    pull = {} if gravity is None else {"gravity": parse_gravity(gravity)}
+    loads = payloads(payload)
+    return study.altered(payload=loads, **pull) if pull or loads else study
 
 
 def coefficient(word: str | None) -> float | None:

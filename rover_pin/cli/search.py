@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from rover_pin.cli.options import Json
+from rover_pin.cli.options import Json, OwnGravity, Payload, altered
 
 
 def search(
@@ -18,6 +18,8 @@ def search(
         typer.Option("--out", "-o", help="Result, netCDF; silent: SPEC.nc here.", metavar="OUT.nc"),
     ] = None,
     html: Annotated[Path | None, typer.Option(help="Write the search's page.", metavar="FILE")] = None,
+    gravity: OwnGravity = None,
+    payload: Payload = None,
     json: Json = False,
 ) -> int:
     """A search for the best design under bounds; exit status 1 where none keeps them."""
@@ -30,7 +32,7 @@ def search(
 
     path = out or Path(f"{spec.stem}.nc")
     check_outputs(path, html)
-    study = Study.from_file(spec)
+    study = altered(Study.from_file(spec), gravity, payload)
     started = time.perf_counter()
     announce_compilation(batch=True)
     with progress_bar("trials") as progress:

@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rover_pin.cli.options import (
+    Gravity,
     HeightOffset,
     HeightScale,
     Json,
     Packages,
     Parameters,
+    Payload,
     Robot,
     Sidecar,
     SkipIncludes,
@@ -47,8 +49,8 @@ def settle(
     ] = None,
     lock: Annotated[list[str] | None, typer.Option(help="Lock a passive joint.", metavar="NAME")] = None,
     param: Parameters = None,
-    gravity: Annotated[str, typer.Option(help="m/s2, or earth, moon, mars.")] = "earth",
-    payload: Annotated[list[str] | None, typer.Option(help="Mass on the base.", metavar="KG@X,Y,Z")] = None,
+    gravity: Gravity = "earth",
+    payload: Payload = None,
     friction: Annotated[str | None, typer.Option(help="Friction under every wheel.", metavar="MU")] = None,
     resistance: Annotated[
         str, typer.Option(help="Motion resistance against the heading.", metavar="NEWTON")

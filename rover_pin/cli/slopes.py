@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from rover_pin.cli.options import (
+    Gravity,
     Json,
     Packages,
     Parameters,
+    Payload,
     Robot,
     Sidecar,
     SkipIncludes,
@@ -38,8 +40,8 @@ def slopes(
     ] = None,
     lock: Annotated[list[str] | None, typer.Option(help="Lock a passive joint.", metavar="NAME")] = None,
     param: Parameters = None,
-    gravity: Annotated[str, typer.Option(help="m/s2, or earth, moon, mars.")] = "earth",
-    payload: Annotated[list[str] | None, typer.Option(help="Mass on the base.", metavar="KG@X,Y,Z")] = None,
+    gravity: Gravity = "earth",
+    payload: Payload = None,
     html: Annotated[Path | None, typer.Option(help="Write a page that shows it.", metavar="FILE")] = None,
     png: Annotated[Path | None, typer.Option(help="Write the polar plot.", metavar="FILE")] = None,
     json: Json = False,
@@ -88,7 +90,7 @@ def slopes_object(data: xr.Dataset) -> dict[str, Any]:
         for k, heading in enumerate(data["heading_rad"].values)
     ]
     return {
-        **{name: data.attrs[name] for name in ("robot", "friction", "gravity", "posture")},
+        **{name: data.attrs[name] for name in ("robot", "friction", "gravity", "payload", "posture")},
         "worst": _worst(each),
         "headings": each,
     }

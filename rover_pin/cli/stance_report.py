@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from rover_pin.cli.output import figure, fixed, line, new_table, print_table
+from rover_pin.payload import told as payload_told
 
 if TYPE_CHECKING:
     from rover_pin.stability.margin import Margin
@@ -57,6 +58,8 @@ def stance_object(stance: Stance, margins: Mapping[str, Margin]) -> dict[str, An
             for name, margin in margins.items()
         },
         "residuals": stance.residuals,
+        "gravity": stance.gravity,
+        "payload": payload_told(stance.rover.recipe.payload),
         "redundant": stance.redundant,
         "undetermined": stance.undetermined,
         "notes": stance.rover.notes,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from rover_pin.cli.options import Json
+from rover_pin.cli.options import Json, OwnGravity, Payload, altered
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -35,11 +35,14 @@ def study(
     scheduler: Annotated[str | None, typer.Option(help="Of a cluster's engine.", metavar="ADDRESS")] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on with a run that was stopped.")] = False,
     html: Annotated[Path | None, typer.Option(help="Write the study's page.", metavar="FILE")] = None,
+    gravity: OwnGravity = None,
+    payload: Payload = None,
     json: Json = False,
 ) -> int:
     """Many cases of one question, each a row of a dataset."""
-    from rover_pin.analysis import Study
+    from rover_pin.analysis import Study, probabilities
     from rover_pin.analysis.summary import statuses
+    from rover_pin.cli.chance_report import chances_object, print_chances
     from rover_pin.cli.output import announce_compilation, aside, check_outputs, print_json
     from rover_pin.cli.progress import progress_bar
     from rover_pin.cli.sensitivity_report import print_slopes, slopes_object
@@ -47,7 +50,7 @@ def study(
 
     path = out or Path(f"{spec.stem if spec else 'study'}.nc")
     check_outputs(path, html)
-    asked = Study.default() if spec is None else Study.from_file(spec)
+    asked = altered(Study.default() if spec is None else Study.from_file(spec), gravity, payload)
     started = time.perf_counter()
     try:
         announce_compilation(batch=True)
@@ -69,14 +72,21 @@ def study(
         return INTERRUPTED
     seconds = time.perf_counter() - started
     ended = statuses(data)
-    slopes = _slopes(asked, data)
+    slopes, indices, chances = _slopes(asked, data), _indices(asked, data), probabilities(data)
     if html is not None:
         _save_page(asked, data, slopes, html)
     if json:
-        print_json({**study_object(data, ended, path, html, seconds), **slopes_object(slopes)})
+        print_json(
+            {
+                **study_object(data, ended, path, html, seconds),
+                **slopes_object(slopes),
+                **chances_object(chances, indices),
+            }
+        )
     else:
         print_study(data, ended, seconds)
         print_slopes(slopes)
+        print_chances(chances, indices)
     for written in (path, html):
         if written is not None:
             aside(f"wrote {written}")
@@ -91,6 +101,21 @@ def _slopes(asked: Study, data: xr.Dataset) -> xr.Dataset | None:
     return sensitivity(data) if wanted else None
 
 
+def _indices(asked: Study, data: xr.Dataset) -> xr.Dataset | None:
+    """The Sobol indices, where the study drew a sample for them and enough of it has answers."""
+    from rover_pin.analysis import sobol_indices
+    from rover_pin.cli.output import aside
+    from rover_pin.errors import StudyError
+
+    if asked.spec.cases.sampler != "saltelli":
+        return None
+    try:
+        return sobol_indices(data)
+    except StudyError as error:
+        aside(f"no Sobol indices: {error}")
+        return None
+
+
 def _save_page(asked: Study, data: xr.Dataset, slopes: xr.Dataset | None, html: Path) -> None:
     """The study's page; its worst cases, or each design of a small sweep, settled anew for their contacts."""
     from rover_pin import viz
@@ -99,6 +124,7 @@ def _save_page(asked: Study, data: xr.Dataset, slopes: xr.Dataset | None, html: 
         viz.save_sensitivity_page(slopes, html)
         return
     each = len(asked) <= DRAWN and asked.plan.job.cases.questions.parameters
-    stances = {case: asked.stance(case) for case in (range(len(asked)) if each else viz.worst_cases(data))}
     ready = asked.plan
+    cases = range(len(asked)) if each else viz.exact_cases(data, ready.rover, ready.job.terrain)
+    stances = {case: asked.stance(case) for case in cases}
     viz.save_study_page(data, html, rover=ready.rover, terrain=ready.job.terrain, stances=stances)

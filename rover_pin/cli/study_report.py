@@ -24,6 +24,8 @@ def study_object(
     return {
         "robot": data.attrs["robot"],
         "terrain": data.attrs["terrain"],
+        "gravity": float(data.attrs["gravity"]),
+        "payload": data.attrs["payload"],
         "cases": data.sizes["case"],
         "status": ended,
         "plain_path": int(data.attrs["plain_path_cases"]),

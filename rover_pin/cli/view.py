@@ -7,7 +7,16 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from rover_pin.cli.options import Packages, Parameters, Sidecar, SkipIncludes, load_rover
+from rover_pin.cli.options import (
+    OwnGravity,
+    Packages,
+    Parameters,
+    Payload,
+    Sidecar,
+    SkipIncludes,
+    load_rover,
+    loaded,
+)
 from rover_pin.errors import InputError
 
 if TYPE_CHECKING:
@@ -21,6 +30,8 @@ def view(
     package: Packages = None,
     skip_missing_includes: SkipIncludes = False,
     param: Parameters = None,
+    gravity: OwnGravity = None,
+    payload: Payload = None,
     browser: Annotated[bool, typer.Option(help="Open the browser.")] = True,
 ) -> None:
     """Show a robot on flat ground, or a study's case, until Ctrl-C; only this machine can look."""
@@ -28,6 +39,10 @@ def view(
     from rover_pin.cli.output import line
 
     if what.endswith(".nc"):
+        for option, given in (("--gravity", gravity), ("--payload", payload)):
+            if given:
+                cure = "run the study with it: rover-pin study"
+                raise InputError("a result has its own", element=option, value=what, cure=cure)
         stance = _case(Path(what), case)
     elif case is not None:
         raise InputError(
@@ -35,8 +50,11 @@ def view(
         )
     else:
         from rover_pin import Terrain, settle
+        from rover_pin.analysis.words import gravity as parse_gravity
 
-        stance = settle(load_rover(what, sidecar, package, skip_missing_includes, param), Terrain.flat())
+        pull = parse_gravity(gravity or "earth")
+        rover = loaded(load_rover(what, sidecar, package, skip_missing_includes, param), payload)
+        stance = settle(rover, Terrain.flat(), gravity=pull)
     served = viz.show(stance, open_browser=browser)
     line(f"{stance!r}\n{served.url} (Ctrl-C ends it)")
     try:

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rover_pin.compiled.answers import COMPILED_MEASURES, Answers, answers_of, blank
 from rover_pin.compiled.bounds import SHARES
@@ -24,6 +25,7 @@ from rover_pin.errors import InputError, nearest
 from rover_pin.numerics import Array
 from rover_pin.terrain import Terrain
 from rover_pin.terrain.surface import CALLABLE
+from rover_pin.weighing import Changes, weigh_anew
 
 if TYPE_CHECKING:
     from rover_pin.rover import Rover
@@ -96,6 +98,7 @@ class Batch:
         posture: Integers | None = None,
         joints: Mapping[str, Array] | None = None,
         parameters: Mapping[str, Array] | None = None,
+        changes: Changes | None = None,
     ) -> Answers:
         """Answer n cases.
 
@@ -107,6 +110,8 @@ class Batch:
             posture: (n,) index into `postures`; 0 where silent.
             joints: (n,) values of further joints, rad or m; a passive joint given here is locked there.
             parameters: (n,) values of declared parameters.
+            changes: other masses of n rovers; where links' own masses are changed and parameters vary too,
+                every case is left open.
         """
         x, y, yaw = (np.ascontiguousarray(values, dtype=np.float64) for values in (x, y, yaw))
         given = [
@@ -117,16 +122,17 @@ class Batch:
         joint_rad = np.full((len(x), len(self.rover.joints)), np.nan)
         which = np.zeros(len(x), dtype=np.int64) if posture is None else np.asarray(posture)
         links: tuple[str, ...] = ()
-        alone = bool(given[0] or given[1])
+        alone = bool(given[0] or given[1] or changes)
         for k, each in enumerate(postures if not self.refusal else ()):
-            template = self._template(each, tuple(given[0]), bool(given[1]))
+            template = self._template(each, tuple(given[0]), bool(given[1] or changes))
             if template is None:
                 continue
             links = tuple(template.problem.underside.links)
             cases = _near_each_other(np.flatnonzero(which == k), x, y)
             for mine in _blocks(cases, MOST_MACHINES if alone else max(len(cases), 1)):
                 held, designs = ({name: v[mine] for name, v in part.items()} for part in given)
-                groups, index = self._groups(each, template, held, designs, len(mine))
+                some = changes.pick(mine) if changes else None
+                groups, index = self._groups(each, template, held, designs, some, len(mine))
                 part = self._settle(groups, index, x[mine], y[mine], yaw[mine])
                 joint_rad[mine] = groups.pose.joints(index, part.z)
                 _put(out, mine, part)
@@ -155,11 +161,12 @@ class Batch:
         template: Template,
         joints: Mapping[str, Array],
         parameters: Mapping[str, Array],
+        changes: Changes | None,
         count: int,
     ) -> tuple[Groups, Integers]:
         """Groups, and the group of each case."""
         sizes = np.array(self._sizes)
-        if not joints and not parameters:
+        if not joints and not parameters and not changes:
             key = _name(posture)
             if key not in self._single:
                 self._single[key] = as_loaded(self.rover, self._machine, template, sizes, self._outline_reach)
@@ -171,6 +178,11 @@ class Batch:
                 valid[:] = False
             else:
                 machine, valid = filled(made.machine, made.valid, self._machine), made.valid
+        if changes:
+            machine, heavy = self._weighed(machine, changes)
+            valid = valid & heavy
+            if parameters and changes.links:
+                valid = np.zeros(count, dtype=np.bool_)  # a link's own mass may hang on the parameters
         values = np.tile(template.values, (count, 1))
         for name, column in joints.items():
             values[:, self.rover.column[name]] = column
@@ -188,6 +200,14 @@ class Batch:
             return None if designs.refusal else designs.machines(parameters)
         except UntraceableError:
             return None
+
+    def _weighed(self, machine: Machine, changes: Changes) -> tuple[Machine, NDArray[np.bool_]]:
+        """The machine with other masses, and which groups can have them."""
+        bodies, root = self.rover.bodies, self.rover.bodies[self.rover.root]
+        payload = self.rover.recipe.payload
+        kg, moments, valid = weigh_anew(machine.masses, machine.moments, bodies, root, payload, changes)
+        kg[~valid], moments[~valid] = self._machine.masses, self._machine.moments
+        return machine._replace(masses=kg, moments=moments), valid
 
     @cached_property
     def _machine(self) -> Machine:

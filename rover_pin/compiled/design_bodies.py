@@ -24,7 +24,7 @@ def weigh(
     Args:
         plan: the tree's links.
         walked: where they sit.
-        payload: masses in the frame of `root`.
+        payload: masses at places in the frame of `root`, or at the origins of links.
         root: the URDF's root link.
         joints: j.
         sheet: told of designs that the loader would refuse for their masses.
@@ -40,9 +40,10 @@ def weigh(
         moments[:, seat.joint] += mass * moved(seat.place, sheet.row(link.center))
     sheet.require(total > 0.0)
     for kg, place in payload:
-        seat = walked.seats[root]
+        carrier, point = (place, (0.0, 0.0, 0.0)) if isinstance(place, str) else (root, place)
+        seat = walked.seats[carrier]
         masses[:, seat.joint] += kg
-        moments[:, seat.joint] += kg * moved(seat.place, np.array([place]))
+        moments[:, seat.joint] += kg * moved(seat.place, np.array([point]))
     return masses, moments
 
 

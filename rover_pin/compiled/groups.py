@@ -73,7 +73,7 @@ def varied(
         flat: level ground.
     """
     made = pose(rover, machine, template.problem, template.held, values)
-    groups = _ready(made, template, sizes, reach, same=len(machine.masses) == 1)
+    groups = _ready(made, template, sizes, reach, same=len(machine.translations) == 1)
     held = [rover.column[joint] for joint in template.held]
     within = (values[:, held] >= machine.lower[:, held]) & (values[:, held] <= machine.upper[:, held])
     records = groups.pose.records

@@ -140,18 +140,19 @@ class Projection:
                 )
         order = ("velocity", "posture", "set", "load")
         chosen = [c for name, c in constraints.items() if name in thresholds or c.kind == "set"]
-        self._watched = sorted(chosen, key=lambda constraint: order.index(constraint.kind))
-        ends = np.cumsum([0, *(len(c.parts) for c in self._watched)]).tolist()
+        watched = sorted(chosen, key=lambda constraint: order.index(constraint.kind))
+        ends = np.cumsum([0, *(len(c.parts) for c in watched)]).tolist()
         spans = [slice(a, b) for a, b in pairwise(ends)]
-        self.places = [(c.name, c.parts, span) for c, span in zip(self._watched, spans, strict=True)]
-        self.parts = [(c.name, part) for c in self._watched for part in c.parts]
+        self.places = [(c.name, c.parts, span) for c, span in zip(watched, spans, strict=True)]
+        self.parts = [(c.name, part) for c in watched for part in c.parts]
         each = [thresholds.get(name) for name, _ in self.parts]
         self.limit = np.array([1.0 if t is None else t.limit for t in each])
         self.allowed = np.array([1.0 if t is None else t.allowed for t in each])
         self.reached = np.array([0.5 if t is None else t.margin * (1.0 - REACHED) for t in each])
-        kinds = [c.kind for c in self._watched for _ in c.parts]
+        kinds = [c.kind for c in watched for _ in c.parts]
         self.rates, self._steered = kinds.count("velocity"), kinds.count("velocity") + kinds.count("posture")
         self.pace = np.where(np.arange(self._steered) < self.rates, 1.0, gamma)
+        self._steps = [(c, c.kind, span) for c, span in zip(watched, spans, strict=True)]
         self._kept: dict[str, tuple[object, tuple[str, ...], Array]] = {}
         self.row_names = tuple(f"{name} {part}".rstrip() for name, part in self.parts[: self._steered])
 
@@ -162,17 +163,15 @@ class Projection:
             now: with no velocity.
         """
         value, matrix = np.empty(len(self.parts)), np.empty((self._steered, len(now.v)))
-        for constraint, (_, _, place) in zip(self._watched, self.places, strict=True):
-            kind = constraint.kind
-            if kind == "load" and now.loads is None:
-                value[place] = np.nan
-                continue
-            if kind in ("velocity", "posture"):
-                matrix[place] = constraint.gradient(now)
+        for constraint, kind, place in self._steps:
             if kind == "velocity":
+                matrix[place] = constraint.gradient(now)
                 value[place] = constraint.offset(now)
             elif kind == "posture":
+                matrix[place] = constraint.gradient(now)
                 value[place] = constraint.value(now)
+            elif kind == "load" and now.loads is None:
+                value[place] = np.nan
             else:
                 value[place] = self._seldom(constraint, now)
         if now.lifted:

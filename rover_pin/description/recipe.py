@@ -6,7 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-Payload = tuple[float, tuple[float, float, float]]
+from rover_pin.description.masses import Masses
+
+Payload = tuple[float, tuple[float, float, float] | str]
+"""A mass [kg] and where: a place in the root link's frame [m], or the link at whose origin it sits."""
 
 
 @dataclass(frozen=True)
@@ -22,7 +25,8 @@ class Recipe:
         parameters: value of every declared parameter.
         packages: package name -> folder, as given.
         skip_missing_includes: as given.
-        payload: masses put on the base: kg, place in the root link's frame (m).
+        payload: masses put on it.
+        masses: other ones than the texts say.
         notes: what expanding told.
     """
 
@@ -35,4 +39,5 @@ class Recipe:
     packages: Mapping[str, str] = field(default_factory=dict)
     skip_missing_includes: bool = False
     payload: tuple[Payload, ...] = ()
+    masses: Masses = field(default_factory=Masses)
     notes: tuple[str, ...] = ()

@@ -319,3 +319,41 @@ def expand(
             left += matrix[k, c] * z[k]
         y[i] = -left
     return x, y, z
+
+
+@formula
+def finished(
+    hessian: Array, gradient: Array, equations: Array, right: Array, matrix: Array, low: Array, high: Array,
+    floor: Array, ceiling: Array, pins: Integers, free: Integers, rest: Integers, part: Array, y_part: Array,
+    z_part: Array, weight: float,
+) -> tuple[Array, float, float]:  # fmt: skip
+    """The whole program's point, and its conditions worked out again.
+
+    Args:
+        hessian: (n, n) of the program, as are the next.
+        gradient: (n,).
+        equations: (e, n).
+        right: (e,).
+        matrix: (m, n).
+        low: (m,).
+        high: (m,).
+        floor: (n,).
+        ceiling: (n,).
+        pins: (e,).
+        free: as in `expand`, as are the next.
+        rest: places of the equations that are no pins.
+        part: the free coordinates.
+        y_part: multipliers, of the program times `weight`.
+        z_part: likewise.
+        weight: what the objective was multiplied by.
+
+    Returns:
+        x (n,); the largest miss of a row or bound; what is left of the balance (`unbalanced`).
+    """
+    x, y, z = expand(
+        hessian, gradient, equations, right, matrix, pins, free, rest, part, y_part / weight, z_part / weight
+    )
+    primal = max(
+        outside(equations, right, right, x), outside(matrix, low, high, x), beyond(x, floor, ceiling)
+    )
+    return x, primal, unbalanced(hessian, gradient, equations, matrix, low, high, floor, ceiling, x, y, z)

@@ -85,7 +85,9 @@ def assemble(
     soft = [
         Aim(b.matrix, b.low, np.full(len(b.low), b.bend)) for b in blocks if b.equation and b.bend < math.inf
     ]
-    bends = [block.bend for block in between for _ in block.names]
+    bends: list[float] = []
+    if any(block.bend < math.inf for block in between):
+        bends = [block.bend for block in between for _ in block.names]
     bending = np.array([i for i, bend in enumerate(bends) if bend < math.inf], dtype=np.int64)
     n = nv + len(bending)
     hessian, gradient = np.zeros((n, n)), np.zeros(n)

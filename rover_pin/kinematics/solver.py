@@ -13,7 +13,7 @@ import numpy as np
 from proxsuite import proxqp
 
 from rover_pin.kinematics.instant import Integers
-from rover_pin.kinematics.kernels import beyond, expand, outside, reduce, unbalanced
+from rover_pin.kinematics.kernels import finished, reduce
 from rover_pin.kinematics.program import Program, refuse
 from rover_pin.numerics import Array
 
@@ -101,7 +101,7 @@ def _attempt(program: Program, manner: Manner) -> Answer:
     if not good:
         refuse(p)
     if not len(free):
-        return _checked(p, free, rest, np.zeros(0), np.zeros(len(rest)), np.zeros(len(p.low)), 0)
+        return _checked(p, free, rest, (np.zeros(0), np.zeros(len(rest)), np.zeros(len(p.low))), 1.0, 0)
     qp = proxqp.dense.QP(len(free), len(rest), len(p.low), True, _DENSE, _BACKEND)
     settings = qp.settings
     settings.initial_guess = manner.guess
@@ -115,25 +115,18 @@ def _attempt(program: Program, manner: Manner) -> Answer:
     qp.init(*parts, compute_preconditioner=manner.scaled)
     qp.solve()
     found = qp.results
-    return _checked(p, free, rest, found.x, found.y / weight, found.z / weight, int(found.info.iter))
+    return _checked(p, free, rest, (found.x, found.y, found.z), weight, int(found.info.iter))
 
 
 def _checked(
-    p: Program, free: Integers, rest: Integers, part: Array, y_part: Array, z_part: Array, iterations: int
+    p: Program, free: Integers, rest: Integers, found: tuple[Array, Array, Array], weight: float, steps: int
 ) -> Answer:
     """The whole program's answer, its conditions worked out again."""
-    x, y, z = expand(
-        p.hessian, p.gradient, p.equations, p.right, p.matrix, p.pins, free, rest, part, y_part, z_part
-    )
-    primal = max(
-        outside(p.equations, p.right, p.right, x),
-        outside(p.matrix, p.low, p.high, x),
-        beyond(x, p.floor, p.ceiling),
-    )
-    dual = unbalanced(
-        p.hessian, p.gradient, p.equations, p.matrix, p.low, p.high, p.floor, p.ceiling, x, y, z
+    x, primal, dual = finished(
+        p.hessian, p.gradient, p.equations, p.right, p.matrix, p.low, p.high, p.floor, p.ceiling, p.pins,
+        free, rest, *found, weight,
     )  # fmt: skip
-    return Answer(x, primal <= ACCEPTED and dual <= ACCEPTED, primal, dual, iterations)
+    return Answer(x, primal <= ACCEPTED and dual <= ACCEPTED, primal, dual, steps)
 
 
 _DENSE = proxqp.dense.HessianType.Dense

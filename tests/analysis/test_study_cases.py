@@ -41,7 +41,7 @@ def everything(asked: Questions, spec: CasesSpec) -> Cases:
 def content(cases: Cases, start: int = 0, stop: int | None = None) -> dict[str, bytes]:
     """The bits of some of the cases."""
     columns = {each.name: getattr(cases, each.name) for each in fields(Cases)}
-    columns |= columns.pop("parameters") | columns.pop("joints")
+    columns |= columns.pop("parameters") | columns.pop("joints") | columns.pop("weights")
     return {
         name: np.asarray(values)[start:stop].tobytes()
         for name, values in columns.items()

@@ -55,7 +55,8 @@ def test_quantities(written: object, meant: object) -> None:
         (BASE + "cases: {n: -5}", "s.yaml: cases.n: should be greater than or equal to 1 (got -5)"),
         (
             BASE + "cases: {sampler: sobal, n: 4}",
-            "s.yaml: cases.sampler: should be 'sobol', 'grid' or 'sensitivity' (got 'sobal')",
+            "s.yaml: cases.sampler: should be 'sobol', 'random', 'saltelli', 'grid' or 'sensitivity' "
+            "(got 'sobal')",
         ),
         (BASE + "case: {n: 4}", "s.yaml: case: unknown key; did you mean 'cases' or 'measures'?"),
         (BASE + "vary: {yaw: [0, 1]}", "s.yaml: vary.yaw: unknown key; did you mean 'yaw_deg' or 'y'?"),
@@ -71,7 +72,8 @@ def test_quantities(written: object, meant: object) -> None:
         ),
         (
             BASE + "gravity: mers",
-            "s.yaml: gravity: gravity is not a number (got 'mers'); did you mean 'mars'?",
+            "s.yaml: gravity: gravity is not a number (got 'mers');"
+            " did you mean 'mars' or 'ceres' or 'mercury'?",
         ),
         (
             BASE + "vary: {x: [5, 1]}",
@@ -84,7 +86,7 @@ def test_quantities(written: object, meant: object) -> None:
         (
             BASE + "vary: {x: {from: 0, to: 1}}",
             "s.yaml: vary.x: is no quantity (got {'from': 0, 'to': 1}); write [lo, hi], "
-            "{values: [a, b, ...]}, or {from: lo, to: hi, by: step}",
+            "{values: [a, b, ...]}, {from: lo, to: hi, by: step} or {normal: {mean: 1, sd: 0.1}}",
         ),
         (
             BASE + "vary: {x: {from: 0, to: 1, by: 0}}",

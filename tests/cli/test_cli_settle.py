@@ -38,7 +38,7 @@ def test_settle_prints_the_object_of_the_contract(run: Any) -> None:
     assert (status, err) == (0, "")
     assert set(told) == {
         *("robot", "status", "base", "joints", "wheels", "tensions_n", "springs_n", "stability", "residuals"),
-        *("redundant", "undetermined", "reason", "notes"),
+        *("redundant", "undetermined", "reason", "notes", "gravity", "payload"),
     }
     _, out, _ = run("settle", "rocker_bogie", "--resistance", "30", "--json")
     pulled = json.loads(out)
@@ -141,7 +141,10 @@ def test_tables_are_for_people(run: Any) -> None:
         ),
         (["settle", "rocker_bogie", "--gravity", "0"], "gravity must be more than zero (got '0')"),
         (["settle", "rocker_bogie", "--gravity", "pluto"], "gravity is not a number (got 'pluto')"),
-        (["settle", "rocker_bogie", "--payload", "5"], "--payload: is not KG@X,Y,Z (got '5')"),
+        (
+            ["settle", "rocker_bogie", "--payload", "5@1,2"],
+            "--payload: is not KG@X,Y,Z or KG@FRAME (got '5@1,2')",
+        ),
         (["settle", "rocker_bogie", "--payload", "-5@0,0,0"], "--payload: mass must be more than zero"),
         (["settle", "rocker_bogie", "--friction", "-1"], "--friction: must be more than zero (got '-1')"),
         (["settle", "rocker_bogie", "--terrain", "flatt"], "did you mean 'flat'"),

@@ -50,7 +50,7 @@ def test_a_table_and_where_it_tips_first(capsys: pytest.CaptureFixture[str]) -> 
     [
         (["--friction", "0"], "--friction: must be more than zero"),
         (["--headings", "0"], "headings: must be a whole number from 1 to 3600"),
-        (["--payload", "5"], "--payload: is not KG@X,Y,Z"),
+        (["--payload", "5@"], "--payload: is not KG@X,Y,Z or KG@FRAME"),
         (["--png", "/nowhere/s.png"], "/nowhere"),
     ],
 )

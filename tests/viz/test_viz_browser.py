@@ -77,7 +77,8 @@ def test_a_stances_page_says_its_numbers(tmp_path):
     assert re.search(r'id="robot">stand-in<', text)
     assert ">35.0<" in text
     assert ">−12.0<" in text
-    assert len(re.findall(r'<span class="label', text)) == 6
+    assert len(re.findall(r'<span class="label', text)) == 6 + 1
+    assert text.count(">limiting edge") == 1
     assert 'class="message">No 3D' not in text
 
 

@@ -61,7 +61,7 @@ def test_the_rover_is_where_pinocchio_says_between_two_samples(run, tmp_path):
     assert ">9.0 s<" in page
     assert re.search(r'id="action" class="chip">chassis_raise<', page)
     assert re.search(r'id="lifted" class="chip bad">LF, RM lifted<', page)
-    assert len(re.findall(r'<span class="label', page)) == 6
+    assert len(re.findall(r'<span class="label', page)) == 6 + page.count(">limiting edge")
     assert page.count("LF lifted") == 1
     assert 'class="message">No 3D' not in page
 

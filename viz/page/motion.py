@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 import pinocchio as pin
 
-from rover_pin.mechanism import FrameSpring
 from rover_pin.numerics import Array
 from rover_pin.simulation.series import spans
 from rover_pin.viz.page.curves import PANELS, packed_curves
@@ -43,7 +42,7 @@ def motion_pack(runs: Mapping[str, Run], title: str) -> Pack:
     abouts = []
     for k, run in enumerate(robots):
         about, segments[f"robot/{k}"] = robot(run.rover, k)
-        abouts.append({**about, "sides": wheel_sides(run.rover), "not_drawn": _not_drawn(run.rover)})
+        abouts.append({**about, "sides": wheel_sides(run.rover)})
     fields = []
     for k, first in enumerate(grounds):
         paths = [np.asarray(run.configuration) for run in logs if ground_of[id(run)] == k]
@@ -130,9 +129,3 @@ def wheel_sides(rover: Rover) -> list[dict[str, Any]]:
         for side, place in zip(left, at, strict=True)
     ]
     return [{"left": side, "rank": rank} for side, rank in zip(left, ahead, strict=True)]
-
-
-def _not_drawn(rover: Rover) -> list[str]:
-    """What the stance page draws and this one does not."""
-    moved = [spring for spring in rover.springs if isinstance(spring, FrameSpring)]
-    return [word for word, parts in (("tracks", rover.tracks), ("springs between frames", moved)) if parts]

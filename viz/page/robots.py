@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rover_pin.viz.page.inside import inside
 from rover_pin.viz.record import recording
 from rover_pin.viz.scene import draw_robot, span_of
 from rover_pin.viz.tree import joint_nodes
@@ -15,7 +16,9 @@ if TYPE_CHECKING:
 
 
 def robot(rover: Rover, index: int = 0) -> tuple[dict[str, Any], bytes]:
-    """What the page poses (`nodes`, `wheels`, `span`, `outline`), and Meshcat's commands that draw it.
+    """What the page poses, and Meshcat's commands that draw it.
+
+    The page poses `nodes`, `wheels`, `springs`, `tracks`; `span` and `outline` say how large the robot is.
 
     The commands write under `robot<index>`, so that a page can hold several.
     """
@@ -47,6 +50,7 @@ def robot(rover: Rover, index: int = 0) -> tuple[dict[str, Any], bytes]:
             }
             for shape in rover.shapes
         ],
+        **inside(rover, nodes),
         "span": span_of(rover),
         "outline": _outline(rover),
     }

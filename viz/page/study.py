@@ -12,6 +12,7 @@ from rover_pin.errors import StudyError, nearest
 from rover_pin.viz.facts import STATUS_WORDS
 from rover_pin.viz.page.columns import Column, numbers, words
 from rover_pin.viz.page.html import page, write_whole
+from rover_pin.viz.page.matters import matters_of
 from rover_pin.viz.page.pack import Pack
 from rover_pin.viz.page.raster import ground_raster
 from rover_pin.viz.page.robots import robot
@@ -136,6 +137,7 @@ def study_page(
         "columns": {name: column.about() for name, column in columns.items()},
         "status_words": STATUS_WORDS,
         "sweep": sweep_of(dataset),
+        "matters": matters_of(dataset),
         "ground": ground,
         "robots": [about for about, _ in variants],
         "exact": exact,

@@ -7,6 +7,7 @@ export function loadBars(holder, loads, lightest) {
   const most = Math.max(...known.map((load) => load.value), 1e-9);
   const mean = known.reduce((sum, load) => sum + load.value, 0) / Math.max(known.length, 1);
   const small = most < 10;
+  holder.style.setProperty("--who", `${0.5 + 0.62 * Math.max(...loads.map(({ name }) => name.length), 0)}em`);
   holder.replaceChildren(
     ...loads.map(({ name, value }) => {
       const fill = element("i", name === lightest ? "fill light" : "fill");

@@ -80,7 +80,7 @@ export class Landscape {
     context.fillStyle = SAND;
     context.fillRect(0, 0, canvas.width, canvas.height);
     context.setTransform(this.scale, 0, 0, -this.scale, -this.scale * ground.x0, this.scale * ground.y1);
-    if (coloured) paintCells(context, cells, values, scale, { pixel: 1 / this.scale, alpha: 0.5 });
+    if (coloured) paintCells(context, cells, values, scale, { pixel: 1 / this.scale, alpha: 0.42 });
     paintContours(context, ground, Math.max(1.3 / this.scale, 0.012), "rgba(40, 40, 40, 0.38)");
     this.texture.needsUpdate = true;
     this.view.viewer.set_dirty();

@@ -23,7 +23,7 @@ function asked(count) {
 }
 
 /* What a run is, and what of it the page leaves out. */
-function tellRun(frames, robot, ground) {
+function tellRun(frames, ground) {
   byId("terrain").textContent = `on ${frames.terrain} · ${fixed(frames.samples, 0)} sample${frames.samples > 1 ? "s" : ""} in ${fixed(frames.length, 1)} s`;
   const chip = byId("status");
   chip.textContent = frames.status.replace(/_/g, " ");
@@ -31,7 +31,6 @@ function tellRun(frames, robot, ground) {
   byId("reason").textContent = frames.reason;
   const notes = [];
   if (frames.count < frames.samples) notes.push(`The picture has ${fixed(frames.count, 0)} of the ${fixed(frames.samples, 0)} samples and goes straight between them; the plots keep the extremes of all.`);
-  if (robot.not_drawn.length) notes.push(`Not drawn: ${robot.not_drawn.join(", ")}.`);
   byId("notes").textContent = notes.join(" ");
   byId("notes").hidden = !notes.length;
   const loaded = frames.heaviest > 0;
@@ -102,7 +101,7 @@ function start({ header, segments }) {
     if (!kept.has(k)) kept.set(k, new Frames(runs[k], k, header.robots[runs[k].robot], segments));
     Object.assign(state, { run: k, frames: kept.get(k) });
     byId("run").value = k;
-    tellRun(state.frames, header.robots[runs[k].robot], header.grounds[runs[k].ground]);
+    tellRun(state.frames, header.grounds[runs[k].ground]);
     stage.show(state.frames);
     transport.show(state.frames);
     plots.show(state.frames);

@@ -2,9 +2,11 @@
 import { byId } from "./format.js";
 import { Viewer3d, explain } from "./viewer3d.js";
 import { Labels } from "./labels.js";
+import { Inside } from "./inside.js";
 import { Robot } from "./robot.js";
 import { Marks } from "./marks.js";
 import { Landscape } from "./landscape.js";
+import { tellInside } from "./insidekey.js";
 import { limitingOf } from "./details.js";
 
 export class Picture {
@@ -20,8 +22,15 @@ export class Picture {
     this.landscape = new Landscape(this.view, state.ground);
     this.view.groundAt = (x, y) => state.ground.at(x, y)[0];
     this.marks = new Marks(this.view);
+    this.inside = new Inside(this.view);
+    this.through = false;
     this.labels = new Labels(this.view, byId("labels"));
     this.view.buttons(byId("views"), (name) => this.view.look(name, 2.1));
+    this.view.toggle(byId("views"), "See through", false, (on) => {
+      this.through = on;
+      this.view.seeThrough(this.inside.bands.mesh, on);
+      for (const robot of this.robots) if (robot) this.view.seeThrough(robot.all, on);
+    });
     this.coloured = byId("coloured");
     this.coloured.addEventListener("change", () => this.paint());
   }
@@ -32,7 +41,10 @@ export class Picture {
   }
 
   robot(index) {
-    this.robots[index] ??= new Robot(this.view, this.state.robots[index], index, this.segments);
+    if (!this.robots[index]) {
+      this.robots[index] = new Robot(this.view, this.state.robots[index], index, this.segments);
+      if (this.through) this.view.seeThrough(this.robots[index].all, true);
+    }
     this.robots.forEach((robot, k) => (robot.all.visible = k === index));
     return this.robots[index];
   }
@@ -47,6 +59,7 @@ export class Picture {
     if (!this.view) return lightestOf(cases, chosen);
     if (!posed) {
       this.marks.clear();
+      this.inside.clear();
       this.labels.set([]);
       this.robots.forEach((robot) => (robot.all.visible = false));
       this.view.viewer.set_dirty();
@@ -59,10 +72,15 @@ export class Picture {
     const first = !this.shown;
     this.shown = true;
     this.landscape.around(com[0], com[1], robot.span);
-    this.view.follow(com, cases.at("yaw_rad", chosen), robot.span);
+    const drawn = (this.drawn = this.inside.draw(robot, cases, chosen, (x, y) => ground.at(x, y)[0]));
+    tellInside(drawn);
+    const { middle, radius } = this.view.extent([robot.all]);
+    this.view.reach = radius;
+    this.view.follow([com[0], com[1], middle[2]], cases.at("yaw_rad", chosen), robot.span);
     if (first) this.view.look("Iso", 2.1);
     const limiting = [measure.name, "tip", "polygon"].map((name) => limitingOf(cases, name, chosen));
     const labels = this.marks.draw({ contacts, com, limiting, span: robot.span, groundHeight: ground.at(com[0], com[1])[0] });
+    for (const label of labels) label.text = `${label.name}  ${label.text}`;
     this.labels.set(labels);
     return this.marks.lightest;
   }

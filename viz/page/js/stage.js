@@ -4,6 +4,8 @@ import { Viewer3d, explain } from "./viewer3d.js";
 import { Labels } from "./labels.js";
 import { Lattice } from "./lattice.js";
 import { Marks } from "./marks.js";
+import { Inside } from "./inside.js";
+import { tellInside } from "./insidekey.js";
 import { Robot } from "./robot.js";
 import { Trails } from "./trails.js";
 
@@ -20,8 +22,15 @@ export class Stage {
       return;
     }
     this.marks = new Marks(this.view);
+    this.inside = new Inside(this.view);
+    this.through = false;
     this.labels = new Labels(this.view, byId("labels"));
     this.view.buttons(byId("views"), (name) => this.look(name));
+    this.view.toggle(byId("views"), "See through", false, (on) => {
+      this.through = on;
+      this.view.seeThrough(this.inside.bands.mesh, on);
+      for (const robot of this.robots) if (robot) this.view.seeThrough(robot.all, on);
+    });
     this.view.groundAt = (x, y) => this.ground.at(x, y)[0];
   }
 
@@ -32,6 +41,7 @@ export class Stage {
     const { robot, ground } = frames;
     this.robots[robot] ??= new Robot(this.view, this.header.robots[robot], robot, this.segments);
     this.grounds[ground] ??= new Lattice(this.view, this.header.grounds[ground], ground, this.segments);
+    this.view.seeThrough(this.robots[robot].all, this.through);
     this.robots.forEach((other, k) => (other.all.visible = k === robot));
     this.grounds.forEach((other, k) => (other.group.visible = k === ground));
     [this.robot, this.ground] = [this.robots[robot], this.grounds[ground]];
@@ -52,6 +62,8 @@ export class Stage {
     const place = frames.place(t);
     robot.pose(frames, place);
     const contacts = robot.contacts(frames, place, this.ground);
+    this.drawn = this.inside.draw(robot, frames, place, (x, y) => this.ground.at(x, y)[0]);
+    tellInside(this.drawn);
     this.aim(contacts, frames.at("yaw_rad", place));
     if (!this.settled || view) this.look(view ?? "Iso");
     this.settled = true;

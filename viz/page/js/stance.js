@@ -4,6 +4,7 @@ import { commandsOf, unpack } from "./pack.js";
 import { Viewer3d, explain } from "./viewer3d.js";
 import { Labels } from "./labels.js";
 import { loadBars } from "./bars.js";
+import { tellInside } from "./insidekey.js";
 
 function fillFacts(stance) {
   byId("robot").textContent = stance.robot;
@@ -23,6 +24,15 @@ function fillFacts(stance) {
       element("tr", "", null, element("td", "", row.name), element("td", "value", fixed(row.value, row.unit === "m" ? 3 : 1)), element("td", "unit", row.unit)),
     ),
   );
+  byId("springs-card").hidden = !stance.springs.length;
+  byId("springs").replaceChildren(
+    ...stance.springs.map((row) => element("tr", "", null, element("td", "", row.name), element("td", "value", number(row.value)), element("td", "unit", row.unit))),
+  );
+  byId("region").hidden = stance.region.length < 3 || !stance.loads.length;
+  tellInside({
+    springs: stance.springs.filter((row) => !stance.slack.some((track) => track.name === row.name)).map((row) => ({ ...row, force: row.value })),
+    belts: stance.slack,
+  });
   byId("residuals").textContent = stance.residuals.map((row) => `${row.name.replace(/_m$/, " [m]")} ${row.value === null ? "–" : row.value.toExponential(0)}`).join(" · ");
   byId("unread").textContent = stance.unread.length ? `not drawn, unreadable: ${stance.unread.join(", ")}` : "";
   byId("contours").hidden = !stance.contour_m;
@@ -50,16 +60,28 @@ function draw(stance, segments) {
   const view = new Viewer3d(byId("pane"));
   view.replay(commandsOf(segments.get("commands")));
   view.shadowless(["loads", "support", "com"]);
+  const [robot, belts, region] = ["rover", "tracks", "support/region"].map((path) => view.node(path).object);
   view.node("ground").object.traverse((thing) => (thing.castShadow = false));
-  view.follow(stance.target, stance.yaw, stance.span);
+  const { middle, radius } = view.extent([robot]);
+  view.reach = radius;
+  view.follow([stance.target[0], stance.target[1], middle[2]], stance.yaw, stance.span);
   const wide = () => window.innerWidth > 900;
   const look = (name) => view.look(name, 2.05, wide() ? -0.09 : 0);
   view.buttons(byId("views"), look);
   look("Iso");
+  view.toggle(byId("views"), "See through", false, (on) => [robot, belts].forEach((thing) => view.seeThrough(thing, on)));
+  if (!byId("region").hidden) {
+    view.toggle(byId("views"), "Region", true, (on) => {
+      region.visible = on;
+      view.viewer.set_dirty();
+    });
+  }
   keepCamera(view);
   const labels = new Labels(view, byId("labels"));
   const small = stance.weight_n < 60;
-  labels.set(stance.labels.map((l) => ({ at: l.at, light: l.light, text: `${l.name}  ${fixed(l.load, small ? 2 : 0)} N` })));
+  const texts = stance.labels.map((l) => ({ at: l.at, light: l.light, text: `${l.name}  ${fixed(l.load, small ? 2 : 0)} N` }));
+  if (stance.edge) texts.push({ at: stance.edge.at, light: true, text: `limiting edge  ${stance.edge.name}` });
+  labels.set(texts);
 }
 
 /* A served page loads itself anew when another stance is shown; the camera stays. */

@@ -11,6 +11,7 @@ import { Sweep } from "./sweep.js";
 import { Table } from "./table.js";
 import { Picture } from "./picture.js";
 import { showDetails } from "./details.js";
+import { addMatters } from "./matters.js";
 
 function heading(state, table) {
   const { header } = state.cases;
@@ -147,6 +148,7 @@ function start({ header, segments }) {
   picture = new Picture(state, segments);
   heading(state, table);
   about(header);
+  addMatters(header, byId("csv").parentNode);
   choices(state);
   keys(state, table);
   state.recolour();

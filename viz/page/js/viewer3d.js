@@ -33,6 +33,7 @@ export class Viewer3d {
     this.viewer.set_3d_pane_size();
     this.target = [0, 0, 0];
     this.span = 1;
+    this.reach = 0;
     this.yaw = 0;
   }
 
@@ -65,14 +66,39 @@ export class Viewer3d {
     for (const command of commands) this.viewer.handle_command_bytearray(command);
   }
 
-  /** Nodes under a path that cast no shadow (marks). */
+  /** Nodes under a path that cast no shadow and are drawn last (marks). */
   shadowless(paths) {
     for (const path of paths) {
       this.node(path).object.traverse((thing) => {
         thing.castShadow = false;
         thing.receiveShadow = false;
+        thing.renderOrder = 10;
       });
     }
+  }
+
+  /** Let things be looked through, or not. */
+  seeThrough(thing, on) {
+    thing.traverse(({ material }) => {
+      if (!material?.color) return;
+      material.userData.plain ??= { transparent: material.transparent, opacity: material.opacity, depthWrite: material.depthWrite };
+      Object.assign(material, on ? { transparent: true, opacity: 0.25, depthWrite: false } : material.userData.plain);
+      material.needsUpdate = true;
+    });
+    this.viewer.set_dirty();
+  }
+
+  /** Middle (world) and radius of what is drawn under some objects. */
+  extent(things) {
+    const { THREE } = this;
+    const box = new THREE.Box3();
+    const turn = this.viewer.scene.matrixWorld.clone().invert();
+    for (const thing of things) {
+      thing.updateWorldMatrix(true, true);
+      box.expandByObject(thing);
+    }
+    const sphere = box.getBoundingSphere(new THREE.Sphere());
+    return { middle: sphere.center.applyMatrix4(turn).toArray(), radius: sphere.radius };
   }
 
   node(path) {
@@ -111,10 +137,11 @@ export class Viewer3d {
     this.sun.target.position.set(x, y, z);
   }
 
-  /** Look from one of the named sides, in the rover's heading; `aside` moves the picture by parts of the width. */
+  /** Look from one of the named sides, in the rover's heading; `distance` in spans, and never so near that what
+   * is in `reach` (m about the target) is cut; `aside` moves the picture by parts of the width. */
   look(name, distance = 2.5, aside = 0) {
     const [x, y, z] = VIEWS[name];
-    const length = Math.hypot(x, y, z) / (distance * this.span);
+    const length = Math.hypot(x, y, z) / Math.max(distance * this.span, 2.2 * this.reach);
     const turned = this.yaw + (name === "Iso" ? 2.75 : 0);
     const [c, s] = [Math.cos(turned), Math.sin(turned)];
     const away = cameraAxes([(c * x - s * y) / length, (s * x + c * y) / length, z / length]);
@@ -139,6 +166,20 @@ export class Viewer3d {
     if (v.z > 1) return null;
     const { clientWidth: w, clientHeight: h } = renderer.domElement;
     return [((v.x + 1) / 2) * w, ((1 - v.y) / 2) * h];
+  }
+
+  /** A switch beside the view buttons; `change(on)` now and when it is used. */
+  toggle(holder, text, on, change) {
+    const box = document.createElement("input");
+    box.type = "checkbox";
+    box.checked = on;
+    box.addEventListener("change", () => change(box.checked));
+    const label = document.createElement("label");
+    label.className = "switch";
+    label.append(box, ` ${text}`);
+    holder.append(label);
+    change(on);
+    return box;
   }
 
   /** The row of view buttons. */
