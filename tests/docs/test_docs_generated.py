@@ -1,0 +1,139 @@
+"""Generated references are whole, and the site's checks find what is wrong."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from docs_build import commands, links, mathml, repository, sidecar
+from docs_build.blocks import run_page
+from rover_pin.cli import main
+
+ROOT = Path(__file__).parents[2]
+BY_HAND = ROOT / "docs" / "commands"
+QUICK = ("settle", "info", "robots", "slopes", "study")
+"""Commands whose example takes no time."""
+
+
+@pytest.mark.parametrize("name", commands.commands())
+def test_every_command_has_a_page_with_all_its_options(name: str) -> None:
+    command = commands.commands()[name]
+    page = commands.page(name)
+    assert commands.summary(command), f"{name} has no docstring"
+    assert commands.summary(command) in page
+    assert "## Exit status" in page
+    for each in command.params:
+        assert each.help, f"{name}: {each.name} says nothing"
+        assert all(f"`{option}`" in page for option in each.opts if option.startswith("-")), each.name
+    assert f"[`{name}`]({name}.md)" in commands.index()
+
+
+def test_the_pages_by_hand_belong_to_commands() -> None:
+    assert {path.stem for path in BY_HAND.glob("*.md")} <= set(commands.commands())
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_the_keys_that_a_page_lists_are_those_of_the_object(name: str, tmp_path: Path) -> None:
+    text = (BY_HAND / f"{name}.md").read_text(encoding="utf-8")
+    example = re.search(r"^```sh\nrover-pin (.*)$", text, re.M)
+    assert example is not None
+    run_page(text, tmp_path)
+    out = io.StringIO()
+    with contextlib.chdir(tmp_path) if sys.version_info >= (3, 11) else _folder(tmp_path), contextlib.redirect_stdout(out):
+        assert main([*example[1].split(), "--json"]) == 0
+    found = json.loads(out.getvalue())
+    told = found[0] if isinstance(found, list) else found
+    rows = re.findall(r"^\| (`.*?) \|", text.partition("## The object")[2], re.M)
+    listed = {key for row in rows for key in re.findall(r"`(\w+)`", row)}
+    assert listed <= set(told)
+    assert set(told) - listed <= UNLISTED, "keys that the page does not list"
+
+
+UNLISTED = {"payload", "gravity", "probabilities", "posture"}
+"""What every command says of the question, and what only some studies have."""
+
+
+@contextlib.contextmanager
+def _folder(path: Path):
+    before = Path.cwd()
+    os.chdir(path)
+    try:
+        yield
+    finally:
+        os.chdir(before)
+
+
+def test_every_key_of_the_sidecar_is_explained() -> None:
+    sidecar.check_words()
+    text = sidecar.reference()
+    for model, key, _ in sidecar.keys():
+        assert f"| `{key}` |" in text, f"{model.__name__}.{key}"
+    shown = {key for model, key, _ in sidecar.keys() if model is sidecar.Sidecar}
+    assert {"couplings", "loops", "springs", "tracks", "wheels", "retype", "srdf"} <= shown
+    anchors = {sidecar._slug(sidecar.title(model)) for model in sidecar.nested()}
+    assert set(re.findall(r"\]\(#([\w-]+)\)", text)) <= anchors
+
+
+def test_a_key_without_words_and_words_without_a_key_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    words = sidecar._words()
+    keys = {name: text for name, text in words["keys"].items() if name != "LoopSpec.axis"}
+    monkeypatch.setattr(sidecar, "_words", lambda: {**words, "keys": keys})
+    with pytest.raises(sidecar.SilentKeyError, match=r"LoopSpec\.axis is not explained"):
+        sidecar.check_words()
+    monkeypatch.setattr(sidecar, "_words", lambda: {**words, "keys": {**words["keys"], "LoopSpec.axes": "no"}})
+    with pytest.raises(sidecar.SilentKeyError, match=r"LoopSpec\.axes is no key"):
+        sidecar.check_words()
+
+
+def test_links_that_lead_nowhere_are_found(tmp_path: Path) -> None:
+    (tmp_path / "a.html").write_text('<p id="x"><a href="b.html#y">1</a><a href="#x">2</a><a href="c.html">3</a>')
+    (tmp_path / "b.html").write_text('<a href="a.html#x">1</a><script src="https://cdn.example/m.js"></script>')
+    assert links.faults(tmp_path) == [
+        "a.html: b.html#y: no such anchor",
+        "a.html: c.html: no such file",
+        "b.html: loads https://cdn.example/m.js from the network",
+    ]
+
+
+def test_links_to_files_of_the_repository_become_copies() -> None:
+    text, copies = repository.with_copies("[a](../urdf/rocker_bogie) `x` [b](start.md)", "motion.md")
+    assert text == "[a](repository/urdf/rocker_bogie/README.md.txt) `x` [b](start.md)"
+    assert copies["repository/urdf/rocker_bogie/README.md.txt"] == ROOT / "urdf" / "rocker_bogie" / "README.md"
+    with pytest.raises(repository.MissingFileError, match=r"docs/files/a\.md: link to \.\./\.\./nothing\.py"):
+        repository.with_copies("[a](../../nothing.py)", "files/a.md")
+
+
+@pytest.mark.parametrize("name", ["README.md", "CONTRIBUTING.md"])
+def test_links_of_the_readmes_lead_to_files(name: str) -> None:
+    text = (ROOT / name).read_text(encoding="utf-8")
+    for target in re.findall(r"\]\(([^)#\s]+)", text):
+        assert "://" in target or (ROOT / target).exists(), target
+
+
+def test_formulas_become_mathml_and_unknown_commands_are_refused() -> None:
+    drawn = mathml.with_mathml(r'<span class="arithmatex">\(x \ge 0\)</span>')
+    assert "<math" in drawn
+    assert "&#x02265;" in drawn or "≥" in drawn
+    with pytest.raises(ValueError, match="nonsense"):
+        mathml.with_mathml(r'<span class="arithmatex">\(\nonsense x\)</span>')
+
+
+def test_the_site_builds_strictly(tmp_path: Path) -> None:
+    """Every link and anchor, every formula, every docstring of the public surface."""
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_MKDOCS_2_WARNING": "1"}
+    done = subprocess.run(
+        [sys.executable, "-m", "mkdocs", "build", "-q", "--strict", "-d", str(tmp_path / "site")],
+        cwd=ROOT, env=environment, capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    site = tmp_path / "site"
+    assert {f"{name}.html" for name in commands.commands()} <= {p.name for p in (site / "commands").iterdir()}
+    assert "arithmatex" not in (site / "mechanics" / "standing.html").read_text(encoding="utf-8")
