@@ -1,12 +1,13 @@
 """The code blocks of a page, run one after the other in one folder, as a reader would.
 
 - A block with a title that is a path (`yaml title="rover.yaml"`) is written there.
-- `console`: each `$ rover-pin ...` runs, and must print what stands below it; a line `...` stands for any lines.
-- `python` without a title runs, all of a page in one namespace; a block `text title="prints"` after it is what it
-  must print.
+- `console`: each `$ rover-pin ...` runs, and must print what stands below it; `...` stands for any lines.
+- `python` without a title runs, all of a page in one namespace; a block `text title="prints"` after it is
+  what it must print.
 - Blocks of other kinds (`sh`, `yml`, `text`) are for the eye.
 
-`python -m docs_build.blocks --write docs/start.md` puts in what was printed; without `--write` differences are told.
+`python -m docs_build.blocks --write docs/start.md` puts in what was printed; without `--write` differences
+are told.
 """
 
 from __future__ import annotations
@@ -25,7 +26,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 _FENCE = re.compile(r'^```(?P<kind>\w+)(?: title="(?P<title>[^"]+)")?\n(?P<body>.*?)^```$', re.M | re.S)
-_VARYING = [(re.compile(r"\bin [\d.]+ m?s\b"), "in # s"), (re.compile(r"(residuals: ).*"), r"\1#"), (re.compile(r" +"), " ")]
+_VARYING = [
+    (re.compile(r"\bin [\d.]+ m?s\b"), "in # s"),
+    (re.compile(r"(residuals: ).*"), r"\1#"),
+    (re.compile(r" +"), " "),
+]
 PRINTS = "prints"
 
 
@@ -75,7 +80,7 @@ def run_page(text: str, folder: Path) -> tuple[list[Difference], str]:
 
 
 def extend_packages(paths: list[str], folder: Path) -> None:
-    """Let packages of rover_pin find modules that a page puts into them, in `folder` in place of the sources."""
+    """Let packages of rover_pin find the modules that a page puts into them, below `folder`."""
     for path in paths:
         if path.startswith("rover_pin/"):
             package = importlib.import_module(str(Path(path).parent).replace("/", "."))

@@ -1,7 +1,7 @@
 """A page for every command of the command line, from the application itself.
 
-What a page `docs/commands/NAME.md` says by hand (examples, exit statuses, keys of the object) comes after what is
-generated; a command without one has a page all the same.
+What a page `docs/commands/NAME.md` says by hand (examples, exit statuses, keys of the object) comes after
+what is generated; a command without one has a page all the same.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ import typer
 
 STATUSES = """## Exit status
 
-0 where all is well; 1 where the question has no good answer, what there is being printed all the same; 2 for bad
-input, with one line on standard error.
+0 where all is well; 1 where the question has no good answer, what there is being printed all the same; 2 for
+bad input, with one line on standard error.
 """
 OBJECT = """## The object of `--json`
 
@@ -35,11 +35,18 @@ def page(name: str, by_hand: str = "") -> str:
 
     Args:
         name: the command's.
-        by_hand: the text of its page below `docs/commands`, its heading left out.
+        by_hand: the text of its page below `docs/commands`, whose heading gives way.
     """
     command = commands()[name]
-    text = [f"# rover-pin {name}", inspect.cleandoc(command.help or ""), _usage(name, command), _table(command)]
+    text = [
+        f"# rover-pin {name}",
+        inspect.cleandoc(command.help or ""),
+        _usage(name, command),
+        _table(command),
+    ]
     rest = by_hand.strip()
+    if rest.startswith("# "):
+        rest = rest.partition("\n")[2].strip()
     if "## Exit status" not in rest:
         rest += f"\n\n{STATUSES}"
     if "--json" in _options(command) and "## The object" not in rest:
@@ -53,12 +60,13 @@ def index() -> str:
     return "\n".join(["# Commands", "", _INTRODUCTION, "| command | what |", "|---|---|", *rows, ""])
 
 
-_INTRODUCTION = """Every command prints a table for people, and with `--json` one object for machines. The exit status is
+_INTRODUCTION = """Every command prints a table for people, and with `--json` one object for machines. Its exit
+status is
 
 - **0** where all is well,
-- **1** where the question has no good answer (the rover does not stand, a design is infeasible): the object is printed
-  all the same,
-- **2** for bad input, with one line on standard error that names the file, the element, the value and the cure.
+- **1** where the question has no good answer (the rover does not stand, a design is infeasible): the object is
+  printed all the same,
+- **2** for bad input, with one line on standard error: the file, the element, the value and the cure.
 
 `rover-pin COMMAND --help` says in the terminal what these pages say.
 """
@@ -99,9 +107,10 @@ def _row(each: Any) -> str:
         return f"| `{_metavar(each)}` | {_cell(told)} | {'required' if each.required else _default(each)} |"
     names = ", ".join(f"`{name}`" for name in (*each.opts, *each.secondary_opts))
     flag = bool(getattr(each, "is_flag", False))
-    value = "" if flag else f" `{_value(each)}`"
+    value = "" if flag else f" <code>{_cell(_value(each))}</code>"
     times = "; may be repeated" if each.multiple else ""
-    return f"| {names}{_cell(value)} | {_cell(told)}{times} | {'' if flag else _default(each)} |"
+    what = _cell(told).removesuffix(".") + times if times else _cell(told)
+    return f"| {names}{value} | {what} | {'' if flag else _default(each)} |"
 
 
 def _value(each: Any) -> str:
@@ -116,4 +125,4 @@ def _default(each: Any) -> str:
 
 
 def _cell(text: str) -> str:
-    return text.replace("|", r"\|")
+    return text.replace("|", "&#124;").replace("<", "&lt;")

@@ -1,4 +1,4 @@
-"""The built site looked over: every link within it leads somewhere, and no page asks the network for anything."""
+"""The built site looked over: every link within it leads somewhere, and no page loads from the network."""
 
 from __future__ import annotations
 

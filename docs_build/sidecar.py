@@ -53,7 +53,7 @@ def nested() -> tuple[type[BaseModel], ...]:
     return tuple(found)
 
 
-def keys() -> list[tuple[type[BaseModel], str, FieldInfo]]:
+def entries() -> list[tuple[type[BaseModel], str, FieldInfo]]:
     """(model, key as it is written, field) for each key."""
     return [
         (model, field.alias or name, field)
@@ -81,11 +81,11 @@ def check_words() -> None:
     Raises:
         SilentKeyError: a key without words, or words without a key.
     """
-    known = {f"{model.__name__}.{key}" for model, key, _ in keys()}
+    known = {f"{model.__name__}.{key}" for model, key, _ in entries()}
     for name in _words()["keys"]:
         if name not in known:
             raise SilentKeyError(f"{WORDS.name}: {name} is no key of the sidecar")
-    for model, key, _ in keys():
+    for model, key, _ in entries():
         meaning(model, key)
 
 
@@ -121,7 +121,7 @@ def _attributes(model: type[BaseModel]) -> dict[str, str]:
 
 def _table(model: type[BaseModel]) -> str:
     rows = ["| key | takes | silent | what |", "|---|---|---|---|"]
-    for owner, key, field in keys():
+    for owner, key, field in entries():
         if owner is model:
             what = meaning(model, key).replace("|", r"\|")
             rows.append(f"| `{key}` | {_type(field.annotation)} | {_default(field)} | {what} |")

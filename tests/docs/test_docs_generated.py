@@ -9,6 +9,7 @@ import os
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -19,7 +20,7 @@ from rover_pin.cli import main
 
 ROOT = Path(__file__).parents[2]
 BY_HAND = ROOT / "docs" / "commands"
-QUICK = ("settle", "info", "robots", "slopes", "study")
+QUICK = ("settle", "info", "robots", "slopes", "study", "compare")
 """Commands whose example takes no time."""
 
 
@@ -47,7 +48,7 @@ def test_the_keys_that_a_page_lists_are_those_of_the_object(name: str, tmp_path:
     assert example is not None
     run_page(text, tmp_path)
     out = io.StringIO()
-    with contextlib.chdir(tmp_path) if sys.version_info >= (3, 11) else _folder(tmp_path), contextlib.redirect_stdout(out):
+    with _folder(tmp_path), contextlib.redirect_stdout(out):
         assert main([*example[1].split(), "--json"]) == 0
     found = json.loads(out.getvalue())
     told = found[0] if isinstance(found, list) else found
@@ -62,7 +63,7 @@ UNLISTED = {"payload", "gravity", "probabilities", "posture"}
 
 
 @contextlib.contextmanager
-def _folder(path: Path):
+def _folder(path: Path) -> Iterator[None]:
     before = Path.cwd()
     os.chdir(path)
     try:
@@ -74,9 +75,9 @@ def _folder(path: Path):
 def test_every_key_of_the_sidecar_is_explained() -> None:
     sidecar.check_words()
     text = sidecar.reference()
-    for model, key, _ in sidecar.keys():
+    for model, key, _ in sidecar.entries():
         assert f"| `{key}` |" in text, f"{model.__name__}.{key}"
-    shown = {key for model, key, _ in sidecar.keys() if model is sidecar.Sidecar}
+    shown = {key for model, key, _ in sidecar.entries() if model is sidecar.Sidecar}
     assert {"couplings", "loops", "springs", "tracks", "wheels", "retype", "srdf"} <= shown
     anchors = {sidecar._slug(sidecar.title(model)) for model in sidecar.nested()}
     assert set(re.findall(r"\]\(#([\w-]+)\)", text)) <= anchors
@@ -88,14 +89,20 @@ def test_a_key_without_words_and_words_without_a_key_are_refused(monkeypatch: py
     monkeypatch.setattr(sidecar, "_words", lambda: {**words, "keys": keys})
     with pytest.raises(sidecar.SilentKeyError, match=r"LoopSpec\.axis is not explained"):
         sidecar.check_words()
-    monkeypatch.setattr(sidecar, "_words", lambda: {**words, "keys": {**words["keys"], "LoopSpec.axes": "no"}})
+    monkeypatch.setattr(
+        sidecar, "_words", lambda: {**words, "keys": {**words["keys"], "LoopSpec.axes": "no"}}
+    )
     with pytest.raises(sidecar.SilentKeyError, match=r"LoopSpec\.axes is no key"):
         sidecar.check_words()
 
 
 def test_links_that_lead_nowhere_are_found(tmp_path: Path) -> None:
-    (tmp_path / "a.html").write_text('<p id="x"><a href="b.html#y">1</a><a href="#x">2</a><a href="c.html">3</a>')
-    (tmp_path / "b.html").write_text('<a href="a.html#x">1</a><script src="https://cdn.example/m.js"></script>')
+    (tmp_path / "a.html").write_text(
+        '<p id="x"><a href="b.html#y">1</a><a href="#x">2</a><a href="c.html">3</a>'
+    )
+    (tmp_path / "b.html").write_text(
+        '<a href="a.html#x">1</a><script src="https://cdn.example/m.js"></script>'
+    )
     assert links.faults(tmp_path) == [
         "a.html: b.html#y: no such anchor",
         "a.html: c.html: no such file",
@@ -106,7 +113,9 @@ def test_links_that_lead_nowhere_are_found(tmp_path: Path) -> None:
 def test_links_to_files_of_the_repository_become_copies() -> None:
     text, copies = repository.with_copies("[a](../urdf/rocker_bogie) `x` [b](start.md)", "motion.md")
     assert text == "[a](repository/urdf/rocker_bogie/README.md.txt) `x` [b](start.md)"
-    assert copies["repository/urdf/rocker_bogie/README.md.txt"] == ROOT / "urdf" / "rocker_bogie" / "README.md"
+    assert (
+        copies["repository/urdf/rocker_bogie/README.md.txt"] == ROOT / "urdf" / "rocker_bogie" / "README.md"
+    )
     with pytest.raises(repository.MissingFileError, match=r"docs/files/a\.md: link to \.\./\.\./nothing\.py"):
         repository.with_copies("[a](../../nothing.py)", "files/a.md")
 

@@ -15,7 +15,8 @@ from docs_build.blocks import run_page, titles
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 HOW_TO = ("measure", "reader", "robot", "element")
-PAGES = ("files/terrain.md", "files/others.md", "api/index.md")
+INTO_PACKAGES = ("measure", "reader")
+PAGES = ("files/terrain.md", "files/others.md", "api/index.md", "howto/robot.md", "howto/element.md")
 LONG = re.compile(r"^\$ rover-pin study.*?(?=^```)", re.M | re.S)
 
 
@@ -27,20 +28,27 @@ def test_the_blocks_of_a_page_print_what_it_shows(page: str, tmp_path: Path) -> 
 
 def test_start_here_prints_what_it_shows_but_for_a_smaller_study(tmp_path: Path) -> None:
     text = (DOCS / "start.md").read_text(encoding="utf-8").replace("2000", "20")
-    study = "$ rover-pin study yard.yaml --engine serial --html yard.html\n...\nsettled 20 (100.0 %)\n...\nwrote yard.html\n"
+    study = "$ rover-pin study yard.yaml --engine serial --html yard.html\n"
+    study += "...\nsettled 20 (100.0 %)\n...\nwrote yard.html\n"
     text, count = LONG.subn(study, text)
     differences, _ = run_page(text, tmp_path)
     assert count == 1
     assert not differences, differences
-    assert {"stance.html", "yard.html", "yard.nc", "guessed.yaml"} <= {path.name for path in tmp_path.iterdir()}
+    assert {"stance.html", "yard.html", "yard.nc", "guessed.yaml"} <= {
+        path.name for path in tmp_path.iterdir()
+    }
 
 
 def test_what_the_how_tos_add_is_found_and_runs() -> None:
     """In a process of its own: it finds modules that the pages put into packages."""
-    pages = [str(DOCS / "howto" / f"{name}.md") for name in HOW_TO]
+    pages = [str(DOCS / "howto" / f"{name}.md") for name in INTO_PACKAGES]
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     done = subprocess.run(
-        [sys.executable, "-m", "docs_build.blocks", *pages], cwd=ROOT, env=environment, capture_output=True, text=True
+        [sys.executable, "-m", "docs_build.blocks", *pages],
+        cwd=ROOT,
+        env=environment,
+        capture_output=True,
+        text=True,
     )
     assert done.returncode == 0, done.stderr
 
