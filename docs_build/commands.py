@@ -96,7 +96,7 @@ def _metavar(each: Any) -> str:
 
 
 def _table(command: Any) -> str:
-    rows = ["| option | what | silent |", "|---|---|---|"]
+    rows = ["| option | what | default |", "|---|---|---|"]
     rows += [_row(each) for each in command.params]
     return "\n".join(rows)
 

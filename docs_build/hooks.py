@@ -14,9 +14,13 @@ _KEYS = "<!-- keys -->"
 _copies: dict[str, Path] = {}
 
 
+def on_startup(**_: Any) -> None:
+    """The sources are laid out for mkdocstrings, which looks for their folder when it reads its settings."""
+    sources.mirror(sources.ROOT / "out" / "docs_sources")
+
+
 def on_config(config: Any) -> Any:
-    """The sources are laid out for mkdocstrings, and every command gets its place in the list of pages."""
-    sources.mirror(Path(config.config_file_path).parent / "out" / "docs_sources")
+    """Every command gets its place in the list of pages."""
     for part in config.nav:
         if "Commands" in part:
             part["Commands"] = [

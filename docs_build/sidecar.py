@@ -120,7 +120,7 @@ def _attributes(model: type[BaseModel]) -> dict[str, str]:
 
 
 def _table(model: type[BaseModel]) -> str:
-    rows = ["| key | takes | silent | what |", "|---|---|---|---|"]
+    rows = ["| key | takes | default | what |", "|---|---|---|---|"]
     for owner, key, field in entries():
         if owner is model:
             what = meaning(model, key).replace("|", r"\|")
