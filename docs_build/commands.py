@@ -60,12 +60,12 @@ def index() -> str:
     return "\n".join(["# Commands", "", _INTRODUCTION, "| command | what |", "|---|---|", *rows, ""])
 
 
-_INTRODUCTION = """Every command prints a table for people, and with `--json` one object for machines. Its exit
-status is
+_INTRODUCTION = """Every command prints a table for people, and with `--json` one object for machines.
+Its exit status is
 
 - **0** where all is well,
-- **1** where the question has no good answer (the rover does not stand, a design is infeasible): the object is
-  printed all the same,
+- **1** where the question has no good answer (the rover does not stand, a design is infeasible): the object
+  is printed all the same,
 - **2** for bad input, with one line on standard error: the file, the element, the value and the cure.
 
 `rover-pin COMMAND --help` says in the terminal what these pages say.

@@ -8,10 +8,27 @@ from typing import Any
 from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File, Files
 
-from docs_build import commands, links, mathml, repository, sidecar, sources
+from docs_build import commands, links, mathml, repository, sources, tables
+from docs_build.keys import SIDECAR, STUDY, Reference
 
-_KEYS = "<!-- keys -->"
 _copies: dict[str, Path] = {}
+
+
+def _keys(reference: Reference) -> str:
+    reference.check_words()
+    return reference.markdown()
+
+
+GENERATED = {
+    "<!-- sidecar keys -->": lambda: _keys(SIDECAR),
+    "<!-- study keys -->": lambda: _keys(STUDY),
+    "<!-- measures -->": tables.measures,
+    "<!-- variables -->": tables.variables,
+}
+"""What stands in a page in the place of a comment."""
+
+LATER = "Many cases"
+"""The part of the list of pages that takes those at the top of `docs` which the list does not name."""
 
 
 def on_startup(**_: Any) -> None:
@@ -20,14 +37,25 @@ def on_startup(**_: Any) -> None:
 
 
 def on_config(config: Any) -> Any:
-    """Every command gets its place in the list of pages."""
+    """Every command gets its place in the list of pages, and every page that has none."""
+    listed = set(_listed(config.nav))
     for part in config.nav:
+        if LATER in part:
+            pages = sorted(path.name for path in Path(config.docs_dir).glob("*.md"))
+            part[LATER] += [page for page in pages if page not in listed]
         if "Commands" in part:
             part["Commands"] = [
                 "commands/index.md",
                 *({name: f"commands/{name}.md"} for name in commands.commands()),
             ]
     return config
+
+
+def _listed(nav: Any) -> list[str]:
+    """Paths that a list of pages names, at any depth."""
+    if isinstance(nav, str):
+        return [nav]
+    return [path for each in (nav.values() if isinstance(nav, dict) else nav) for path in _listed(each)]
 
 
 def on_files(files: Files, config: Any) -> Files:
@@ -50,9 +78,9 @@ def on_page_markdown(markdown: str, page: Any, config: Any, files: Files) -> str
     name = name.removesuffix(".md")
     if folder == "commands" and name != "index":
         markdown = commands.page(name, markdown)
-    if _KEYS in markdown:
-        sidecar.check_words()
-        markdown = markdown.replace(_KEYS, sidecar.reference())
+    for mark, made in GENERATED.items():
+        if mark in markdown:
+            markdown = markdown.replace(mark, made())
     try:
         markdown, copies = repository.with_copies(markdown, page.file.src_uri)
     except repository.MissingFileError as error:

@@ -1,7 +1,8 @@
 """The sources as the reader of docstrings wants them: every folder of modules a regular package.
 
-griffe passes over folders without an `__init__.py`, which Python imports all the same (and follows links back
-to the folder they point into, hence copies). A unit behind brackets, `Z[i, j] [m]`, would be a link in Markdown.
+griffe passes over folders without an `__init__.py`, which Python imports all the same (and follows links
+back to the folder they point into, hence copies). A unit behind brackets, `Z[i, j] [m]`, would be a link in
+Markdown.
 """
 
 from __future__ import annotations

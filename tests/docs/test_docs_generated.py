@@ -3,20 +3,34 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses
 import io
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
+import types
+import typing
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from docs_build import commands, links, mathml, repository, sidecar
+from docs_build import commands, hooks, links, mathml, repository, tables
+from docs_build.annotations import slug
 from docs_build.blocks import run_page
+from docs_build.keys import SIDECAR, STUDY, Reference, SilentKeyError
+from rover_pin.analysis.chance import FORMS
+from rover_pin.analysis.ground import KINDS
+from rover_pin.analysis.measures import known_measures
+from rover_pin.analysis.schema import ABOUT
+from rover_pin.analysis.spec import CasesSpec, StudySpec
+from rover_pin.analysis.words import GRAVITIES
 from rover_pin.cli import main
+from rover_pin.stability.registry import MEASURES
+from rover_pin.statics.stance import Status
 
 ROOT = Path(__file__).parents[2]
 BY_HAND = ROOT / "docs" / "commands"
@@ -72,28 +86,67 @@ def _folder(path: Path) -> Iterator[None]:
         os.chdir(before)
 
 
-def test_every_key_of_the_sidecar_is_explained() -> None:
-    sidecar.check_words()
-    text = sidecar.reference()
-    for model, key, _ in sidecar.entries():
+@pytest.mark.parametrize("reference", [SIDECAR, STUDY], ids=["sidecar", "study"])
+def test_every_key_of_a_file_is_explained(reference: Reference) -> None:
+    reference.check_words()
+    text = reference.markdown()
+    for model, key, _ in reference.entries():
         assert f"| `{key}` |" in text, f"{model.__name__}.{key}"
-    shown = {key for model, key, _ in sidecar.entries() if model is sidecar.Sidecar}
-    assert {"couplings", "loops", "springs", "tracks", "wheels", "retype", "srdf"} <= shown
-    anchors = {sidecar._slug(sidecar.title(model)) for model in sidecar.nested()}
-    assert set(re.findall(r"\]\(#([\w-]+)\)", text)) <= anchors
+    anchors = {slug(reference.title(model)) for model in reference.nested} | {"all-measures"}
+    assert set(re.findall(r"#([\w-]+)\)", text)) <= anchors
 
 
-def test_a_key_without_words_and_words_without_a_key_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    words = sidecar._words()
-    keys = {name: text for name, text in words["keys"].items() if name != "LoopSpec.axis"}
-    monkeypatch.setattr(sidecar, "_words", lambda: {**words, "keys": keys})
-    with pytest.raises(sidecar.SilentKeyError, match=r"LoopSpec\.axis is not explained"):
-        sidecar.check_words()
-    monkeypatch.setattr(
-        sidecar, "_words", lambda: {**words, "keys": {**words["keys"], "LoopSpec.axes": "no"}}
+def test_the_references_are_of_the_whole_files() -> None:
+    sidecar = {key for model, key, _ in SIDECAR.entries() if model is SIDECAR.root}
+    assert {"couplings", "loops", "springs", "tracks", "wheels", "retype", "srdf"} <= sidecar
+    study = {key for model, key, _ in STUDY.entries() if model is STUDY.root}
+    assert study == set(StudySpec.model_fields)
+    assert all(f"{kind}:" in STUDY.words["takes"]["StudySpec.terrain"] for kind in KINDS if kind != "file")
+    assert all(f"`{world}`" in STUDY.words["keys"]["StudySpec.gravity"] for world in GRAVITIES)
+    page = (ROOT / "docs" / "files" / "study.md").read_text(encoding="utf-8")
+    samplers = typing.get_args(CasesSpec.model_fields["sampler"].annotation)
+    assert all(f"| `{sampler}` |" in page for sampler in samplers)
+    assert all(f"| `{{{kind}: " in page for kind in FORMS)
+
+
+def test_a_key_without_words_and_words_without_a_key_are_refused() -> None:
+    def changed(keys: dict[str, str]) -> Reference:
+        reference = dataclasses.replace(SIDECAR)
+        vars(reference)["words"] = {**SIDECAR.words, "keys": keys}
+        return reference
+
+    keys = SIDECAR.words["keys"]
+    silent = {name: text for name, text in keys.items() if name != "LoopSpec.axis"}
+    with pytest.raises(SilentKeyError, match=r"LoopSpec\.axis is not explained"):
+        changed(silent).check_words()
+    with pytest.raises(SilentKeyError, match=r"LoopSpec\.axes is no key"):
+        changed({**keys, "LoopSpec.axes": "no"}).check_words()
+
+
+def test_every_measure_and_variable_is_listed_and_every_measure_has_its_formula() -> None:
+    assert all(f"| `{name}` |" in tables.measures() for name in known_measures())
+    page = (ROOT / "docs" / "mechanics" / "stability.md").read_text(encoding="utf-8")
+    assert all(f"| `{name}` |" in page for name in MEASURES), "say by which formula, after whom"
+    assert all(f"| `{name}` |" in tables.variables() for name in ABOUT)
+
+
+def test_the_statuses_on_the_page_are_those_there_are() -> None:
+    page = (
+        (ROOT / "docs" / "mechanics" / "standing.md")
+        .read_text(encoding="utf-8")
+        .partition("## How it ends")[2]
     )
-    with pytest.raises(sidecar.SilentKeyError, match=r"LoopSpec\.axes is no key"):
-        sidecar.check_words()
+    assert re.findall(r"^\| `(\w+)` \|", page, re.M) == [str(status) for status in Status]
+
+
+def test_pages_that_the_list_does_not_name_get_a_place() -> None:
+    config = types.SimpleNamespace(
+        docs_dir=str(ROOT / "docs"), nav=[{"Many cases": ["clusters.md"]}, {"Commands": []}, "index.md"]
+    )
+    hooks.on_config(config)
+    assert "clusters.md" not in config.nav[0]["Many cases"][1:]
+    assert {"motion.md", "start.md"} < set(config.nav[0]["Many cases"])
+    assert {"settle": "commands/settle.md"} in config.nav[1]["Commands"]
 
 
 def test_links_that_lead_nowhere_are_found(tmp_path: Path) -> None:
@@ -137,6 +190,7 @@ def test_formulas_become_mathml_and_unknown_commands_are_refused() -> None:
 
 def test_the_site_builds_strictly(tmp_path: Path) -> None:
     """Every link and anchor, every formula, every docstring of the public surface."""
+    shutil.rmtree(ROOT / "out" / "docs_sources", ignore_errors=True)  # as in a fresh clone
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_MKDOCS_2_WARNING": "1"}
     done = subprocess.run(
         [sys.executable, "-m", "mkdocs", "build", "-q", "--strict", "-d", str(tmp_path / "site")],

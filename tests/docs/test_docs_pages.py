@@ -16,7 +16,15 @@ ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 HOW_TO = ("measure", "reader", "robot", "element")
 INTO_PACKAGES = ("measure", "reader")
-PAGES = ("files/terrain.md", "files/others.md", "api/index.md", "howto/robot.md", "howto/element.md")
+PAGES = (
+    "files/terrain.md",
+    "files/others.md",
+    "files/study.md",
+    "results.md",
+    "api/index.md",
+    "howto/robot.md",
+    "howto/element.md",
+)
 LONG = re.compile(r"^\$ rover-pin study.*?(?=^```)", re.M | re.S)
 
 
