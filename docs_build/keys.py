@@ -30,9 +30,10 @@ class Reference:
 
     Attributes:
         root: the model of the whole file.
-        place: a YAML file with the words: `titles` of the models' tables, what `keys` mean that their model
-            does not explain, and what a key `takes` or its `defaults` where the model's own words are for
-            machines; by `Model.key`.
+        place: a YAML file with the words: `titles` of the models' tables and what stands above them
+            (`openings`; else the docstring), by model; what `keys` mean that their model does not explain,
+            what a key `takes` and its `defaults` where the model's own words are for machines, by
+            `Model.key`.
         hidden: keys of the root that nobody writes.
         others: models that no annotation leads to.
     """
@@ -52,7 +53,8 @@ class Reference:
         """Tables of all keys: first the file's, then what stands in each."""
         text = ["## The file", "", self._table(self.root)]
         for model in self.nested:
-            text += [f"## {self.title(model)}", "", _opening(model), "", self._table(model)]
+            opening = self.words.get("openings", {}).get(model.__name__) or _opening(model)
+            text += [f"## {self.title(model)}", "", opening, "", self._table(model)]
         return "\n".join(text)
 
     @cached_property

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import pytest
 
-from docs_build import commands, hooks, links, mathml, repository, tables
+from docs_build import commands, hooks, links, mathml, repository, sources, tables
 from docs_build.annotations import slug
 from docs_build.blocks import run_page
 from docs_build.keys import SIDECAR, STUDY, Reference, SilentKeyError
@@ -26,7 +26,7 @@ from rover_pin.analysis.chance import FORMS
 from rover_pin.analysis.ground import KINDS
 from rover_pin.analysis.measures import known_measures
 from rover_pin.analysis.schema import ABOUT
-from rover_pin.analysis.spec import CasesSpec, StudySpec
+from rover_pin.analysis.spec import CHEAP, CasesSpec, StudySpec
 from rover_pin.analysis.words import GRAVITIES
 from rover_pin.cli import main
 from rover_pin.stability.registry import MEASURES
@@ -103,6 +103,7 @@ def test_the_references_are_of_the_whole_files() -> None:
     assert study == set(StudySpec.model_fields)
     assert all(f"{kind}:" in STUDY.words["takes"]["StudySpec.terrain"] for kind in KINDS if kind != "file")
     assert all(f"`{world}`" in STUDY.words["keys"]["StudySpec.gravity"] for world in GRAVITIES)
+    assert set(CHEAP) == {name for name, measure in MEASURES.items() if measure.cheap}
     page = (ROOT / "docs" / "files" / "study.md").read_text(encoding="utf-8")
     samplers = typing.get_args(CasesSpec.model_fields["sampler"].annotation)
     assert all(f"| `{sampler}` |" in page for sampler in samplers)
@@ -147,6 +148,14 @@ def test_pages_that_the_list_does_not_name_get_a_place() -> None:
     assert "clusters.md" not in config.nav[0]["Many cases"][1:]
     assert {"motion.md", "start.md"} < set(config.nav[0]["Many cases"])
     assert {"settle": "commands/settle.md"} in config.nav[1]["Commands"]
+
+
+def test_a_line_about_several_arguments_becomes_one_for_each() -> None:
+    text = '"""A.\n\nArgs:\n    a, b: what\n        goes on.\n    c: Z[i] [m]\n"""\nx, y = 1, 2\n'
+    assert sources.readable(text) == (
+        '"""A.\n\nArgs:\n    a: what\n        goes on.\n    b: what\n        goes on.\n    c: Z[i]&#32;[m]\n"""\n'
+        "x, y = 1, 2\n"
+    )
 
 
 def test_links_that_lead_nowhere_are_found(tmp_path: Path) -> None:
