@@ -152,10 +152,9 @@ def test_pages_that_the_list_does_not_name_get_a_place() -> None:
 
 def test_a_line_about_several_arguments_becomes_one_for_each() -> None:
     text = '"""A.\n\nArgs:\n    a, b: what\n        goes on.\n    c: Z[i] [m]\n"""\nx, y = 1, 2\n'
-    assert sources.readable(text) == (
-        '"""A.\n\nArgs:\n    a: what\n        goes on.\n    b: what\n        goes on.\n    c: Z[i]&#32;[m]\n"""\n'
-        "x, y = 1, 2\n"
-    )
+    each = "    {}: what\n        goes on.\n"
+    split = text.replace(each.format("a, b"), each.format("a") + each.format("b"))
+    assert sources.readable(text) == split.replace("] [", "]&#32;[")
 
 
 def test_links_that_lead_nowhere_are_found(tmp_path: Path) -> None:
