@@ -18,6 +18,7 @@ from pathlib import Path
 
 import pytest
 
+import rover_pin as rp
 from docs_build import commands, hooks, links, mathml, repository, sources, tables
 from docs_build.annotations import slug
 from docs_build.blocks import run_page
@@ -34,7 +35,7 @@ from rover_pin.statics.stance import Status
 
 ROOT = Path(__file__).parents[2]
 BY_HAND = ROOT / "docs" / "commands"
-QUICK = ("settle", "info", "robots", "slopes", "study", "compare")
+QUICK = ("settle", "info", "robots", "slopes", "study", "compare", "traverse")
 """Commands whose example takes no time."""
 
 
@@ -108,6 +109,14 @@ def test_the_references_are_of_the_whole_files() -> None:
     samplers = typing.get_args(CasesSpec.model_fields["sampler"].annotation)
     assert all(f"| `{sampler}` |" in page for sampler in samplers)
     assert all(f"| `{{{kind}: " in page for kind in FORMS)
+
+
+def test_every_public_name_is_in_the_python_reference() -> None:
+    pages = [path.read_text(encoding="utf-8") for path in (ROOT / "docs" / "api").glob("*.md")]
+    told = {name for page in pages for name in re.findall(r"^::: (?:\w+\.)*(\w+)$", page, re.M)}
+    for package in (rp, rp.analysis, rp.viz):
+        rooms = {"analysis", "control", "kinematics", "simulation", "viz"}
+        assert set(package.__all__) - rooms <= told, package.__name__
 
 
 def test_a_key_without_words_and_words_without_a_key_are_refused() -> None:
