@@ -8,12 +8,15 @@ from rover_pin.analysis.search import search
 from rover_pin.analysis.sensitivity import sensitivity
 from rover_pin.analysis.slopes import slopes
 from rover_pin.analysis.study import Study
+from rover_pin.analysis.traverse import LargestStep, largest_step, traverse
 
 __all__ = [
     "Comparison",
     "Design",
+    "LargestStep",
     "Study",
     "compare",
+    "largest_step",
     "mobility",
     "paired",
     "probabilities",
@@ -21,4 +24,5 @@ __all__ = [
     "sensitivity",
     "slopes",
     "sobol_indices",
+    "traverse",
 ]

@@ -15,6 +15,7 @@ from rover_pin.cli.search import search
 from rover_pin.cli.settle import settle
 from rover_pin.cli.slopes import slopes
 from rover_pin.cli.study import study
+from rover_pin.cli.traverse import traverse
 from rover_pin.cli.view import view
 
 app = typer.Typer(
@@ -24,5 +25,19 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
-for command in (robots, info, settle, study, compare, search, view, init, mobility, slopes, reproduce, bench):
+for command in (
+    robots,
+    info,
+    settle,
+    study,
+    compare,
+    search,
+    view,
+    init,
+    mobility,
+    slopes,
+    traverse,
+    reproduce,
+    bench,
+):
     app.command()(command)

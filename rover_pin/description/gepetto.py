@@ -1,7 +1,8 @@
 """The `robot.yaml` of Gepetto's example-parallel-robots, in the words of our sidecar.
 
 `closed_loop: [[a, b]]` with `type: [6d | 3d]` are welds and balls; `name_mot` are the driven joints;
-`joint_name` with `joint_type: [SPHERICAL | CARDAN | FIXED]` are joints of another type than the URDF says.
+`joint_name` with `joint_type: [SPHERICAL | CARDAN | UJOINT_XY | FIXED]` are joints of another type than the
+URDF says; a CARDAN is a UJOINT_XY, and there is one for every two letters.
 The keys are those of https://github.com/Gepetto/example-parallel-robots (`loader_tools.py`).
 """
 
@@ -17,7 +18,9 @@ from rover_pin.errors import SidecarError, nearest
 KEYS = ("closed_loop", "type", "name_mot", "joint_name", "joint_type")
 
 _LOOPS = {"6d": "weld", "3d": "ball"}
-_JOINTS = {"spherical": "ball", "cardan": "cardan", "fixed": "fixed"}
+_JOINTS = {"spherical": "ball", "cardan": "cardan", "fixed": "fixed"} | {
+    f"ujoint_{letters}": f"cardan_{letters}" for letters in ("xy", "xz", "yx", "yz", "zx", "zy")
+}
 
 
 def is_gepetto(data: Mapping[str, Any]) -> bool:

@@ -27,7 +27,8 @@ def evaluate(standing: Standing) -> Margin:
     if forces.status is not ForceStatus.FEASIBLE and min(edges.values(), default=0.0) >= 0.0:
         return MEASURE.closed(forces.reason)
     least = forces.friction
-    return MEASURE.margin(edges, note=f"needs friction {least:.6g}", least=least)
+    alike = bool(np.ptp(standing.problem.friction) == 0.0)
+    return MEASURE.margin(edges, note=f"needs friction {least:.6g}" if alike else "", least=least)
 
 
 MEASURE = Measure("friction", "-", "high", 3.0, evaluate)
