@@ -177,7 +177,7 @@ def test_a_root_that_points_down_and_floats(make, tmp_path):
     path = make.write(*body)
     text = begun(path, tmp_path / "rover.yaml")
     assert "# up: [0, 0, -1]  # guess: every wheel lies above the centre of mass along z\n" in text
-    assert "## Note: <transmission> says what is driven: fl, fr, bl, br.\n" in text
+    assert "## Note: <transmission> says what is driven: bl, br, fl, fr.\n" in text
     rover = rp.load(path, sidecar=uncommented(tmp_path / "rover.yaml"))
     assert [wheel.friction for wheel in rover.wheels] == [0.7] * 4
     stance = rp.settle(rover, rp.Terrain.flat())
