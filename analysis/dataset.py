@@ -82,14 +82,21 @@ def read(path: Path) -> xr.Dataset:
     Raises:
         StudyError: no such file, or not the result of a study.
     """
+    from rover_pin.analysis.sound import check_sound
+
     if not path.is_file():
         raise StudyError("no such file", file=path, cure="make one with rover-pin study -o")
     try:
         data = xr.open_dataset(path, engine="h5netcdf", drop_variables=[CASE])
-    except (OSError, ValueError, KeyError) as error:
-        raise StudyError(f"is no netCDF file: {error}", file=path) from None
-    if "study" not in data.attrs or "status" not in data:
+    except Exception as error:  # HDF5 raises whatever a damaged file makes it raise
+        raise StudyError(f"is no netCDF file, or a damaged one: {error}", file=path) from None
+    if "study" not in data.attrs or "status" not in data or CASE not in data.sizes:
         data.close()
         raise StudyError("is not the result of a study", file=path, cure="make one with rover-pin study -o")
+    try:
+        check_sound(data, path)
+    except StudyError:
+        data.close()
+        raise
     # A range index: the numbers of the cases take no memory, however many there are.
     return data.assign_coords({CASE: pd.RangeIndex(data.sizes[CASE])})

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pinocchio as pin
 
-from rover_pin.description.recipe import Payload
+from rover_pin.description.recipe import Payload, seat
 from rover_pin.errors import InputError
 from rover_pin.mechanism.frames import find_frame
 
@@ -27,7 +27,7 @@ def put_on(model: pin.Model, root: str, payload: Sequence[Payload]) -> tuple[pin
     loaded = model.copy()
     checked = tuple(_checked(model, kg, place) for kg, place in payload)
     for mass, place in checked:
-        link, point = (place, (0.0, 0.0, 0.0)) if isinstance(place, str) else (root, place)
+        link, point = seat(place, root)
         frame = loaded.frames[loaded.getFrameId(link, pin.FrameType.BODY)]
         body = pin.Inertia(mass, np.array(point), np.zeros((3, 3)))
         loaded.appendBodyToJoint(frame.parentJoint, body, frame.placement)

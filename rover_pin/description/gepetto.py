@@ -52,7 +52,7 @@ def translated(data: Mapping[str, Any], file: object) -> dict[str, Any]:
             raise SidecarError(
                 f"says with `{said}` what is driven twice", file=file, element="name_mot", cure="keep one"
             )
-        own["actuated"] = data["name_mot"]
+        own["actuated"] = _names(data, "name_mot", file)
     retyped = _retyped(data, file)
     if retyped:
         own["retype"] = {**retyped, **(own.get("retype") or {})}
@@ -62,7 +62,7 @@ def translated(data: Mapping[str, Any], file: object) -> dict[str, Any]:
 def _loops(data: Mapping[str, Any], file: object) -> list[dict[str, Any]]:
     pairs = _list(data, "closed_loop", file)
     for i, pair in enumerate(pairs):
-        if not isinstance(pair, list) or len(pair) != 2:
+        if not isinstance(pair, list) or len(pair) != 2 or not all(isinstance(e, str) for e in pair):
             raise SidecarError(
                 "is not a pair of frames",
                 file=file,
@@ -88,7 +88,7 @@ def _loops(data: Mapping[str, Any], file: object) -> list[dict[str, Any]]:
 
 
 def _retyped(data: Mapping[str, Any], file: object) -> dict[str, str]:
-    names, types = _list(data, "joint_name", file), _list(data, "joint_type", file)
+    names, types = _names(data, "joint_name", file), _list(data, "joint_type", file)
     if len(names) != len(types):
         raise SidecarError(
             f"has {len(types)} types for {len(names)} joints",
@@ -105,7 +105,17 @@ def _retyped(data: Mapping[str, Any], file: object) -> dict[str, str]:
                 value=str(kind),
                 cure=nearest(str(kind), [word.upper() for word in _JOINTS]),
             )
-    return {str(name): _JOINTS[str(kind).lower()] for name, kind in zip(names, types, strict=True)}
+    return {name: _JOINTS[str(kind).lower()] for name, kind in zip(names, types, strict=True)}
+
+
+def _names(data: Mapping[str, Any], key: str, file: object) -> list[str]:
+    names = _list(data, key, file)
+    for i, name in enumerate(names):
+        if not isinstance(name, str) or not name:
+            raise SidecarError(
+                "is no joint's name", file=file, element=f"{key}[{i}]", value=str(name), cure="give a name"
+            )
+    return names
 
 
 def _list(data: Mapping[str, Any], key: str, file: object) -> list[Any]:

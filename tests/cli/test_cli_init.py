@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 import yaml
 
 import rover_pin as rp
@@ -159,3 +160,52 @@ def test_the_object(make, tmp_path, capsys):
     told = json.loads(capsys.readouterr().out)
     assert told["file"] == str(tmp_path / "a.yaml")
     assert {"key": "passive", "line": "[]"}.items() <= told["guesses"][0].items()
+
+
+def exported(folder):
+    """A URDF as a CAD exporter writes it: meshes in mm, names with blanks and colons, wheels about -y."""
+    wheel = trimesh.creation.cylinder(100, 60, sections=64)
+    wheel.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [1, 0, 0]))
+    (folder / "meshes").mkdir()
+    inertial = (
+        '<inertial><mass value="2"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    )
+    parts = [f'<link name="base_link">{inertial}</link>']
+    for k, (x, y) in enumerate(((0.3, 0.3), (0.3, -0.3), (-0.3, 0.3), (-0.3, -0.3))):
+        moved = wheel.copy().apply_translation((1000 * x, 1000 * y, -100))
+        moved.export(folder / f"meshes/Wheel v{k}.stl")
+        parts.append(
+            f'<link name="Wheel v{k}:1">{inertial}<visual><origin xyz="{-x} {-y} 0.1"/><geometry><mesh '
+            f'filename="package://fusion/meshes/Wheel v{k}.stl" scale="0.001 0.001 0.001"/></geometry>'
+            f'</visual></link><joint name="Revolute {k}" type="continuous"><origin xyz="{x} {y} -0.1"/>'
+            f'<parent link="base_link"/>'
+            f'<child link="Wheel v{k}:1"/><axis xyz="0.0 -1.0 0.0"/></joint>'
+        )
+    path = folder / "fusion.urdf"
+    path.write_text(f'<?xml version="1.0" ?><robot name="fusion">{"".join(parts)}</robot>')
+    return path
+
+
+def test_a_cad_export_stands_once_its_guesses_are_taken(tmp_path, capsys):
+    folder = tmp_path / "fusion"
+    folder.mkdir()
+    urdf = exported(folder)
+    assert main(["settle", str(urdf)]) == 2
+    assert capsys.readouterr().err.endswith("; rover-pin init URDF writes a sidecar to start from\n")
+    assert main(["init", str(urdf)]) == 0
+    assert capsys.readouterr().err.endswith("every guess is commented out\n")
+    assert main(["settle", str(urdf)]) == 2
+    assert capsys.readouterr().err == (
+        f"error: {folder}/rover.yaml: wheels: nothing of this robot touches the ground: it has no wheels "
+        "and no contacts; take `# ` away from its lines that are right: guesses of rover-pin init are not "
+        "used before\n"
+    )
+    waiting = "guesses of rover-pin init are still commented out in rover.yaml: not used"
+    assert any(note.endswith(waiting) for note in rp.load(urdf).notes)
+    uncommented(folder / "rover.yaml")
+    rover = rp.load(urdf)
+    assert not any(note.endswith(waiting) for note in rover.notes)
+    assert [wheel.link for wheel in rover.wheels] == [f"Wheel v{k}:1" for k in range(4)]
+    assert [wheel.radius for wheel in rover.wheels] == pytest.approx([0.1] * 4, rel=0.01)
+    stance = rp.settle(rover, rp.Terrain.flat())
+    assert list(stance.loads.values()) == pytest.approx([9.81 * 10 / 4] * 4)

@@ -58,10 +58,10 @@ def guess_wheels(subject: Subject) -> tuple[list[Guess], list[str]]:
 
 def guess_feet(subject: Subject, wheels: list[Guess]) -> list[Guess]:
     """Ball feet: links named like feet or casters with a sphere, and that are no wheel."""
-    taken = " ".join(guess.line for guess in wheels)
+    taken = {guess.link for guess in wheels}
     guesses = []
     for link, shapes in subject.shapes.items():
-        if not (FOOT.search(link) or WHEEL.search(link)) or f"frame: {link}," in taken:
+        if not (FOOT.search(link) or WHEEL.search(link)) or link in taken:
             continue
         ball = next((s for s in shapes if s.kind == "sphere"), None)
         if ball is not None:
@@ -72,7 +72,7 @@ def guess_feet(subject: Subject, wheels: list[Guess]) -> list[Guess]:
                 "radius": ball.size[0],
                 **_friction(subject, link),
             }
-            guesses.append(Guess("contacts", flow(said), "its name, and a sphere"))
+            guesses.append(Guess("contacts", flow(said), "its name, and a sphere", link))
     return guesses
 
 
@@ -105,7 +105,7 @@ def _as_guess(subject: Subject, link: str, shape: Round, reasons: list[str]) -> 
     if np.abs(shape.center).max() > 1e-6:
         said["center"] = shape.center.tolist()
     said |= {"radius": shape.radius, "width": shape.width, **_friction(subject, link)}
-    return Guess("wheels", flow(said), ", ".join(reasons))
+    return Guess("wheels", flow(said), ", ".join(reasons), link)
 
 
 def _friction(subject: Subject, link: str) -> dict[str, object]:

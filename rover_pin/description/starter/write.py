@@ -67,7 +67,7 @@ def start(rover: Rover, folder: Path) -> Start:
     wheels, mute = guess_wheels(subject)
     feet = guess_feet(subject, wheels)
     loops, odd = guess_loops(subject)
-    links = {guess.line.removeprefix("{frame: ").split(",")[0] for guess in wheels}
+    links = {guess.link for guess in wheels}
     drives = [joint for link in links if (joint := subject.made.tree.joint_above(link)) in rover.joints]
     differential, passive = guess_differential(subject), guess_passive(subject, drives)
     guesses = [
@@ -137,7 +137,7 @@ def _robot_yaml(source: Path, folder: Path) -> str | None:
 def _up(subject: Subject, wheels: Sequence[Guess]) -> list[Guess]:
     import pinocchio as pin
 
-    links = [guess.line.removeprefix("{frame: ").split(",")[0] for guess in wheels]
+    links = [guess.link for guess in wheels]
     if not links:
         return []
     model = subject.rover.model
