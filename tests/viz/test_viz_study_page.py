@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import csv
+import json
 import re
 import time
 from types import SimpleNamespace
@@ -38,7 +39,7 @@ def browser():
 
 
 @pytest.fixture(scope="module")
-def made(browser, tmp_path_factory):
+def made(tmp_path_factory):
     """A study's page, and its numbers as xarray reads them from the file."""
     folder = tmp_path_factory.mktemp("page")
     out, path = folder / "out.nc", folder / "out.html"
@@ -46,13 +47,8 @@ def made(browser, tmp_path_factory):
     save_result_page(study.run(engine="serial", out=out), path, study=study)
     with xr.open_dataset(out, engine="h5netcdf") as opened:
         data = opened.load()
-    about = browser_header(browser, path)
-    return SimpleNamespace(path=path, data=data, about=about, model=study.plan.rover.model)
-
-
-def browser_header(browser, path):
-    open_page(browser, path)
-    return browser.execute_script("return roverPin.state.cases.header.columns")
+    header = json.loads(re.search(r'id="header">(.*?)</script>', path.read_text(encoding="utf-8"))[1])
+    return SimpleNamespace(path=path, data=data, about=header["columns"], model=study.plan.rover.model)
 
 
 def rounding(made, name):
@@ -66,6 +62,20 @@ def state(browser, words):
 
 def text(browser, selector):
     return browser.find_element(By.CSS_SELECTOR, selector).text
+
+
+def cases_in_sight(browser):
+    """Numbers of the table's rows, once it has stopped laying itself out."""
+    return browser.execute_async_script(
+        "const told = arguments[0];"
+        "const rows = () => [...document.querySelectorAll('#table tr[data-case]')]"
+        ".map((r) => Number(r.dataset.case));"
+        "requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(() => told(rows()))));"
+    )
+
+
+def click_row(browser, case):
+    browser.find_element(By.CSS_SELECTOR, f'#table tr[data-case="{case}"]').click()
 
 
 def drag(browser, selector, first, last):
@@ -199,12 +209,10 @@ def test_filter_sort_link_and_csv(browser, made):
     browser.find_element(By.CSS_SELECTOR, 'button[data-sort="x_m"]').click()
     browser.find_element(By.CSS_SELECTOR, 'button[data-sort="x_m"]').click()
     order = np.flatnonzero(passing)[np.argsort(-data["x_m"].values[passing], kind="stable")]
-    rows = [
-        r.get_attribute("data-case") for r in browser.find_elements(By.CSS_SELECTOR, "#table tr[data-case]")
-    ]
+    rows = cases_in_sight(browser)
     assert len(rows) >= 5
-    assert [int(case) for case in rows] == order[: len(rows)].tolist()
-    browser.find_elements(By.CSS_SELECTOR, "#table tr[data-case]")[3].click()
+    assert rows == order[: len(rows)].tolist()
+    click_row(browser, rows[3])
     check_case(browser, made, int(order[3]))
     browser.find_element(By.TAG_NAME, "body").send_keys("n")
     check_case(browser, made, int(order[4]))
@@ -216,11 +224,16 @@ def test_filter_sort_link_and_csv(browser, made):
     open_page(browser, made.path, link.partition("#")[2])
     assert browser.current_url == link
     assert state(browser, "[state.chosen, state.selection.count]") == [worst, count]
-    shown = browser.find_elements(By.CSS_SELECTOR, "#table tr[data-case]")
-    assert str(worst) in [row.get_attribute("data-case") for row in shown]
+    assert worst in cases_in_sight(browser)
     check_csv(browser, made, order)
+    browser.get(
+        f"{made.path.as_uri()}#case={worst}&tip.range=9..10"
+    )  # the same page: only the fragment differs
+    assert text(browser, "#table tbody") == "No case passes the filter."
+    assert text(browser, "#case-said").endswith("left out by the filter")
     browser.find_element(By.ID, "clear").click()
     assert text(browser, "#subtitle").startswith("400 cases")
+    assert worst in cases_in_sight(browser)
 
 
 def check_csv(browser, made, order):
@@ -253,14 +266,12 @@ def test_cases_without_an_answer_are_counted_and_said(browser, made):
     for word, count in zip(words, counts, strict=True):
         assert text(browser, f'button[data-status="{word}"] b') == str(count)
     browser.find_element(By.CSS_SELECTOR, f'button[data-status="{other}"]').click()
-    rows = browser.find_elements(By.CSS_SELECTOR, "#table tr[data-case]")
-    assert {status[int(row.get_attribute("data-case"))] for row in rows} == {other}
+    rows = cases_in_sight(browser)
+    assert {status[case] for case in rows} == {other}
     assert f"status={other}" in browser.current_url
-    case = int(rows[0].get_attribute("data-case"))
-    rows[0].click()
-    assert browser.find_element(By.ID, "unposed").is_displayed() == bool(
-        np.isnan(made.data["z_m"].values[case])
-    )
+    click_row(browser, rows[0])
+    unposed = browser.find_element(By.ID, "unposed").is_displayed()
+    assert unposed == bool(np.isnan(made.data["z_m"].values[rows[0]]))
 
 
 def test_it_prints_on_one_sheet(browser, made):

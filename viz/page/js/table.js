@@ -32,6 +32,9 @@ export class Table {
     this.columns = tableColumns(state.cases);
     this.table = element("table", "rows");
     this.table.style.minWidth = `${this.columns.reduce((sum, { wide }) => sum + (wide ?? WIDE), 0)}px`;
+    this.heads = this.columns.map((column) => this.headOf(column));
+    const head = element("tr", "", null, ...this.heads.map(({ cell }) => cell));
+    this.table.append(element("thead", "", null, head), element("tbody"));
     this.spacer = element("div", "spacer", null, this.table);
     holder.replaceChildren(this.spacer);
     holder.addEventListener("scroll", () => this.rows());
@@ -60,20 +63,23 @@ export class Table {
 
   head() {
     const sorted = this.sort?.name ?? this.state.measure.name;
-    const head = element("tr");
-    for (const column of this.columns) {
-      const arrow = column.name === sorted ? (this.sort?.reversed ? " ▼" : " ▲") : "";
-      const button = element("button", "name", column.title + arrow);
-      button.type = "button";
-      button.dataset.sort = column.name;
-      button.title = column.better ? `Better: ${column.better}` : "Sort by it";
-      button.addEventListener("click", () => this.sortBy(column.name));
-      const cell = element("th", "", null, button, element("small", "", column.unit));
-      cell.style.width = `${column.wide ?? WIDE}px`;
-      if (arrow) cell.setAttribute("aria-sort", this.sort?.reversed ? "descending" : "ascending");
-      head.append(cell);
+    for (const { column, button, cell } of this.heads) {
+      const on = column.name === sorted;
+      button.textContent = column.title + (on ? (this.sort?.reversed ? " ▼" : " ▲") : "");
+      if (on) cell.setAttribute("aria-sort", this.sort?.reversed ? "descending" : "ascending");
+      else cell.removeAttribute("aria-sort");
     }
-    this.table.replaceChildren(element("thead", "", null, head), element("tbody"));
+  }
+
+  headOf(column) {
+    const button = element("button", "name");
+    button.type = "button";
+    button.dataset.sort = column.name;
+    button.title = column.better ? `Better: ${column.better}` : "Sort by it";
+    button.addEventListener("click", () => this.sortBy(column.name));
+    const cell = element("th", "", null, button, element("small", "", column.unit));
+    cell.style.width = `${column.wide ?? WIDE}px`;
+    return { column, button, cell };
   }
 
   /* How the rows lie: how many fit, and which is first when scrolled so far. */
@@ -89,22 +95,25 @@ export class Table {
 
   /** Draw the rows in sight. */
   rows() {
-    if (!this.table.tBodies.length) return;
     const { cases, chosen } = this.state;
     const { count, head, fits, tall, perRow } = this.layout();
     this.spacer.style.height = `${head + tall}px`;
     const first = Math.max(0, Math.min(count - fits, Math.round(this.holder.scrollTop / perRow)));
-    const rows = [...this.order().subarray(first, first + fits + 1)].map((i) => {
-      const row = element("tr", i === chosen ? "chosen" : "");
+    const body = this.table.tBodies[0];
+    const inSight = this.order().subarray(first, first + fits + 1);
+    while (body.rows.length > inSight.length || body.querySelector("td.none")) body.lastChild.remove();
+    while (body.rows.length < inSight.length) body.append(element("tr", "", null, ...this.columns.map(() => element("td"))));
+    inSight.forEach((i, k) => {
+      const row = body.rows[k]; // kept, so that a click or a pointer on it outlasts scrolling
+      row.className = i === chosen ? "chosen" : "";
       row.dataset.case = i;
-      for (const column of this.columns) {
+      this.columns.forEach((column, c) => {
         const value = column.name === "case" ? i : cases.at(column.name, i);
-        row.append(element("td", typeof value === "string" ? "word" : "", column.show(value)));
-      }
-      return row;
+        row.cells[c].className = typeof value === "string" ? "word" : "";
+        row.cells[c].textContent = column.show(value);
+      });
     });
-    if (!count) rows.push(element("tr", "", null, element("td", "none", "No case passes the filter.")));
-    this.table.tBodies[0].replaceChildren(...rows);
+    if (!count) body.append(element("tr", "", null, element("td", "none", "No case passes the filter.")));
   }
 
   /** Bring the chosen case into sight, where the selection has it. */
