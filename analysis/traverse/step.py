@@ -57,7 +57,7 @@ class Step:
 
     @property
     def needed(self) -> float:
-        """Least friction [-]; inf where none holds it, NaN where it does not stand."""
+        """Least friction of one for all [-]; inf where none holds it, NaN where it does not stand."""
         return math.nan if self.friction is None else self.friction.details.get("least", math.inf)
 
     @property
@@ -77,9 +77,7 @@ def ask(stood: Stood, friction: float | None) -> Step:
     if not grip.answered and smallest_friction(standing.problem).status is ForceStatus.NO_CONVERGENCE:
         return Step(stood, grip, limit=str(Status.NO_CONVERGENCE), why=f"friction: {grip.note}")
     if grip.value < -ROUNDING:
-        least = grip.details.get("least", math.inf)
-        given = least + grip.value
-        why = f"needs friction {least:.4g} where there is {given:.4g}" if grip.answered else grip.note
+        why = _short(grip, standing.problem) if grip.answered else grip.note
         return Step(stood, grip, limit="friction", why=why, limiting=grip.limiting or "")
     torque = MEASURES["torque"].evaluate(standing)
     if not torque.edges:
@@ -89,6 +87,13 @@ def ask(stood: Stood, friction: float | None) -> Step:
         return Step(stood, grip, torque, share, wheel)
     why = f"the drives would have to give {100 * share:.0f} % of their efforts"
     return Step(stood, grip, torque, share, wheel, "torque", why, wheel)
+
+
+def _short(grip: Margin, problem: FrictionProblem) -> str:
+    """That friction does not hold the rover, in words."""
+    if np.ptp(problem.friction) > 0.0:
+        return f"every contact lacks {-grip.value:.4g} of friction"
+    return f"needs friction {grip.details['least']:.4g} where there is {problem.friction[0]:.4g}"
 
 
 def effort_share(rover: Rover, problem: FrictionProblem) -> tuple[float, str]:

@@ -96,6 +96,23 @@ def test_a_loop_that_is_open_at_zero_is_closed(tmp_path, kind):
     assert ours.loads == pytest.approx(closed.loads, abs=1e-7)
 
 
+def test_the_last_hinge_of_a_planar_loop_may_as_well_be_a_ball(tmp_path):
+    """SPHERICAL frees two more turns, which the weld at its end takes away again."""
+    made = closed_rover(8, "6d")
+    path, sidecars = written(tmp_path, made)
+    balls = tmp_path / "balls.yaml"
+    types = "joint_name: [tip_pin]\njoint_type: [SPHERICAL]\n"
+    balls.write_text("schema: 1\n" + made.gepetto + types + TOUCHING)
+    terrain, where = PLACES["rough"]
+    hinge, ball = (
+        rp.settle(rp.load(path, sidecar=file), terrain, **where) for file in (sidecars["ours"], balls)
+    )
+    assert {"tip_pin_X", "tip_pin_Y", "tip_pin_Z"} <= set(ball.joints)
+    assert ball.loads == pytest.approx(hinge.loads, abs=1e-8)
+    assert ball.joints["crank_pin"] == pytest.approx(hinge.joints["crank_pin"], abs=1e-10)
+    assert ball.rpy == pytest.approx(hinge.rpy, abs=1e-10)
+
+
 @pytest.mark.parametrize("letters", ["XY", "XZ", "YX", "YZ", "ZX", "ZY", "XYZ", ""])
 def test_joint_types_turn_as_there(make, tmp_path, letters):
     """UJOINT_YZ is a turn about y, then about z, in the joint's own frame; a ball all three."""

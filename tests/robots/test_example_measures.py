@@ -12,6 +12,7 @@ import rover_pin as rp
 from rover_pin.description import examples
 from rover_pin.stability.registry import MEASURES
 from rover_pin.stability.report import inapplicable
+from rover_pin.viz.traverse_motion import traverse_run
 
 NAMES = [each.name for each in examples.EXAMPLES]
 WHEELED = {"tiago"}
@@ -97,9 +98,12 @@ def test_slack_and_friction_on_a_slope_of_known_need(case, ground):
     assert 0.0 < margins["slack"].value < stance.weight / len(stance.contacts)
 
 
-def test_frictions_that_differ_have_no_one_need(case):
+def test_the_friction_needed_is_that_of_the_slope_whatever_the_casters_have(case, ground):
     name, _, margins, _ = case
-    assert ("needs friction" in margins["friction"].note) == (name not in WHEELED)  # its casters' is lower
+    least = margins["friction"].details["least"]
+    assert least == pytest.approx(math.tan(math.radians(ground[0])), abs=1e-6)
+    words = "one friction of {:.6g} at every contact would do" if name in WHEELED else "needs friction {:.6g}"
+    assert margins["friction"].note == words.format(least)
 
 
 @pytest.mark.parametrize("measure", ["region", "feasible"])
@@ -143,3 +147,13 @@ def test_efforts_of_the_urdf_bound_the_feasible_region(tmp_path, name, share):
     hand = Standing(weaker, home, shapes, math.radians(4.0), 0.5)
     assert margins["feasible"].details["area_at_most_m2"] < 0.9 * margins["region"].details["area_m2"]
     bracket(margins["feasible"], hand, stance, torques=True)
+
+
+def test_a_path_tells_the_friction_that_it_needs_and_no_share_of_frictions_that_differ():
+    rover, slope = rp.load("example:tiago"), rp.Terrain.slope(6.0)
+    path = rp.analysis.traverse(rover, slope, [(0.0, 0.0), (0.05, 0.0)])
+    np.testing.assert_allclose(path.friction_needed, math.tan(math.radians(6.0)), atol=1e-6)
+    assert list(traverse_run(path, rover, slope).indices) == ["torque needed of effort"]
+    alike = rp.analysis.traverse(rover, slope, [(0.0, 0.0), (0.05, 0.0)], friction=0.5)
+    share = traverse_run(alike, rover, slope).indices["friction needed of given"]
+    np.testing.assert_allclose(share, math.tan(math.radians(6.0)) / 0.5, atol=1e-6)
