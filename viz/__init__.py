@@ -32,8 +32,8 @@ if TYPE_CHECKING:
     from rover_pin.viz.slopes import plot_slopes as plot_slopes
     from rover_pin.viz.slopes import save_slopes_html as save_slopes_html
     from rover_pin.viz.traverse import plot_traverse as plot_traverse
-    from rover_pin.viz.traverse import save_traverse_html as save_traverse_html
     from rover_pin.viz.traverse import save_traverse_plot as save_traverse_plot
+    from rover_pin.viz.traverse_motion import save_traverse_html as save_traverse_html
 
 _HOME = {
     "draw": "scene",
@@ -56,7 +56,7 @@ _HOME = {
     "save_sensitivity_page": "page.sensitivity",
     "save_slopes_html": "slopes",
     "save_study_page": "page.study",
-    "save_traverse_html": "traverse",
+    "save_traverse_html": "traverse_motion",
     "save_traverse_plot": "traverse",
     "serve": "serve",
     "show": "show",

@@ -12,7 +12,7 @@ import pinocchio as pin
 
 from rover_pin.analysis.traverse.follow import Follower
 from rover_pin.analysis.traverse.path import Waypoints, places, waypoints
-from rover_pin.analysis.traverse.run import Progress, _check, default_step, driven
+from rover_pin.analysis.traverse.run import Progress, _check, default_step, driven, unresolved
 from rover_pin.errors import InputError
 from rover_pin.terrain import Terrain
 
@@ -39,6 +39,8 @@ class LargestStep:
         friction_needed: [-] the most that the largest climbed step asks for; NaN where none.
         torque_needed: N m, likewise; NaN where none, or no wheel is driven.
         effort_share: [-] likewise.
+        unresolved_m: m of the way, as `traverse` tells it, of the largest climbed step: where this is more
+            than 0 a peak may have been missed.
         trials: heights that were tried, m, in order.
         climbs: whether each was climbed.
     """
@@ -52,6 +54,7 @@ class LargestStep:
     friction_needed: float
     torque_needed: float
     effort_share: float
+    unresolved_m: float
     trials: tuple[float, ...]
     climbs: tuple[bool, ...]
 
@@ -108,7 +111,8 @@ def largest_step(
     _check(step, crab, friction)
     angle = crab + (math.pi if reverse else 0.0)
     points = across(rover, edge, riser, angle) if path is None else waypoints(path)
-    along = places(points, default_step(rover) if step is None else float(step), angle)
+    length = default_step(rover) if step is None else float(step)
+    along = places(points, length, angle)
     how: dict[str, Any] = {"posture": posture, "joints": joints, "locks": tuple(locks), "gravity": gravity}
     expected = 1 + max(0, math.ceil(math.log2(top / tolerance)))
     tried: dict[float, list[Step]] = {}
@@ -131,10 +135,10 @@ def largest_step(
     while math.isfinite(high) and high - low > tolerance:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if climbs(middle) else (low, middle)
-    return _answer(low, high, tried)
+    return _answer(low, high, tried, length)
 
 
-def _answer(low: float, high: float, tried: Mapping[float, list[Step]]) -> LargestStep:
+def _answer(low: float, high: float, tried: Mapping[float, list[Step]], length: float) -> LargestStep:
     stop = tried[high][-1] if math.isfinite(high) else None
     best = tried.get(low, [])
 
@@ -152,6 +156,7 @@ def _answer(low: float, high: float, tried: Mapping[float, list[Step]]) -> Large
         friction_needed=most([one.needed for one in best]),
         torque_needed=most([one.torque.value for one in best if one.torque is not None]),
         effort_share=most([one.share for one in best]),
+        unresolved_m=unresolved(best, length) if best else 0.0,
         trials=tuple(tried),
         climbs=tuple(steps[-1].passes for steps in tried.values()),
     )

@@ -121,11 +121,9 @@ def _asked(rover: Rover, steps: Sequence[Step]) -> dict[str, Any]:
         for one in steps
     ]
     declared = [float(shape.friction) for shape in rover.shapes]
-    efforts = [
-        float(rover.effort[rover.column[shape.drive]]) if getattr(shape, "drive", None) else math.nan
-        for shape in rover.shapes
-    ]
-    efforts = [effort if math.isfinite(effort) else math.nan for effort in efforts]
+    drives = {wheel.name: wheel.drive for wheel in rover.wheels if wheel.drive is not None}
+    known = {name: float(rover.effort[rover.column[drive]]) for name, drive in drives.items()}
+    efforts = [e if math.isfinite(e := known.get(s.name, math.nan)) else math.nan for s in rover.shapes]
     margins = [math.nan if one.friction is None else one.friction.value for one in steps]
     return {
         "friction_needed": _told([s.needed for s in steps], "least friction that holds it", "1"),

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -86,7 +87,7 @@ def traverse(
         Dimensions step, wheel, joint. `way_m, x_m, y_m, yaw_rad, z_m, roll_rad, pitch_rad, joint_rad,
         load_n, wheel_m` (centres), `ground_m`, `status, followed, friction_needed, friction_margin,
         torque_needed, torque_nm, effort_share, limit, why, limiting`, one variable a measure; attributes
-        `passed` (1 or 0), `stop_m`, `stop_limit`, `stop_why`, `stop_at`.
+        `passed` (1 or 0), `stop_m`, `stop_limit`, `stop_why`, `stop_at`, `unresolved_m` (see `unresolved`).
 
     Raises:
         InputError: a path, number, measure, posture or joint that cannot be used.
@@ -109,7 +110,8 @@ def traverse(
         if until_stop and not one.passes:
             break
     told = {**how, "step": length, "crab": angle, "friction": friction}
-    return as_dataset(rover, terrain, points, found, asked, told)
+    data = as_dataset(rover, terrain, points, found, asked, told)
+    return data.assign_attrs(unresolved_m=unresolved(found, length))
 
 
 def driven(
@@ -188,6 +190,16 @@ def _apart(one: list[Any] | None, other: list[Any] | None) -> bool:
         return True
     cosines = np.array(one) @ np.array(other).T
     return bool(min(cosines.max(axis=0).min(), cosines.max(axis=1).min()) < math.cos(TURNED))
+
+
+def unresolved(steps: Sequence[Step], length: float) -> float:
+    """The longest way [m] over which something changes at once and no stance was found between; 0 where none.
+
+    Friction or torque may be higher there than at both its ends.
+    """
+    finest = 1.01 * length / 2**DEPTH
+    gaps = [b.stood.place.way - a.stood.place.way for a, b in pairwise(steps) if _differ(a, b)]
+    return max((gap for gap in gaps if gap > finest), default=0.0)
 
 
 def default_step(rover: Rover) -> float:

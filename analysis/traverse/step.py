@@ -12,6 +12,8 @@ from rover_pin.analysis.traverse.follow import Stood
 from rover_pin.numerics import Array
 from rover_pin.stability.measure import Standing
 from rover_pin.stability.registry import MEASURES
+from rover_pin.statics.distribute import smallest_friction
+from rover_pin.statics.forces import ForceStatus
 from rover_pin.statics.least_torque import least_torque
 from rover_pin.statics.stance import Status
 
@@ -72,10 +74,12 @@ def ask(stood: Stood, friction: float | None) -> Step:
         return Step(stood, limit=limit, why=stance.reason, limiting=stance.limiting or "")
     standing = Standing(stance, friction)
     grip = MEASURES["friction"].evaluate(standing)
+    if not grip.answered and smallest_friction(standing.problem).status is ForceStatus.NO_CONVERGENCE:
+        return Step(stood, grip, limit=str(Status.NO_CONVERGENCE), why=f"friction: {grip.note}")
     if grip.value < -ROUNDING:
         least = grip.details.get("least", math.inf)
         given = least + grip.value
-        why = f"needs friction {least:.3f} where there is {given:.3f}" if grip.answered else grip.note
+        why = f"needs friction {least:.4g} where there is {given:.4g}" if grip.answered else grip.note
         return Step(stood, grip, limit="friction", why=why, limiting=grip.limiting or "")
     torque = MEASURES["torque"].evaluate(standing)
     if not torque.edges:

@@ -193,7 +193,7 @@ def _largest(
 
     told = None if terrain is None else split_word(terrain)
     height, edge = (None, 0.0) if told is None else told[1]
-    more = {} if spacing is None else {"riser": spacing}
+    more: dict[str, Any] = {} if spacing is None else {"riser": spacing}
     with progress_bar("heights") as progress:
         found: LargestStep = largest_step(
             rover, height, edge=edge, path=path, progress=progress, **more, **how

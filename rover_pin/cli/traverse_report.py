@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rover_pin.cli.output import figure, line, new_table, print_table
+from rover_pin.cli.output import figure, fixed, line, new_table, print_table
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,6 +31,7 @@ def traverse_object(data: xr.Dataset) -> dict[str, Any]:
     return {
         **{name: about[name] for name in ABOUT},
         "passed": bool(about["passed"]),
+        "unresolved_m": about["unresolved_m"],
         "stop": stop,
         "worst": worst(data),
         "steps": [_step(data, k) for k in range(data.sizes["step"])],
@@ -109,7 +110,7 @@ def print_traverse(data: xr.Dataset) -> None:
             entry["limiting"] or "-",
             "none" if math.isinf(entry["value"]) else figure(entry["value"]),
             "-" if entry["unit"] == "1" else entry["unit"],
-            *(f"{entry[key] + 0.0:.3f}" for key in ("way_m", "x_m", "y_m")),
+            *(fixed(entry[key], 3) for key in ("way_m", "x_m", "y_m")),
         )
     print_table(table)
     ends = (
@@ -123,6 +124,9 @@ def print_traverse(data: xr.Dataset) -> None:
     )
     if ends:
         line(f"roll {ends[0]:.2f} to {ends[1]:.2f} deg, pitch {ends[2]:.2f} to {ends[3]:.2f} deg")
+    if about["unresolved_m"]:
+        gap = f"{1e3 * float(about['unresolved_m']):.2g} mm of the way"
+        line(f"something changes within {gap} where no stance was found: a peak may be missed")
     if about["passed"]:
         line("passed")
         return
@@ -155,6 +159,8 @@ def print_largest(rover: Rover, found: LargestStep) -> None:
         line(f"{rover.name} climbs a step of {1e3 * found.climbed:.1f} mm, which {asks}")
     else:
         line(f"{rover.name} climbs no step that was tried")
+    if found.unresolved_m:
+        line(f"over {1e3 * found.unresolved_m:.2g} mm of its way no stance was found: a peak may be missed")
     if math.isinf(found.stopped):
         line("that is the highest that was tried: give a higher --terrain step:HEIGHT,X")
         return

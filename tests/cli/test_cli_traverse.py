@@ -55,7 +55,7 @@ def test_a_table_that_says_where_it_stops(capsys: pytest.CaptureFixture[str]) ->
     assert main(words) == 1
     told = capsys.readouterr().out
     assert "stops after 0.000 m: friction at" in told
-    assert "needs friction 0.466 where there is 0.400" in told
+    assert "needs friction 0.4663 where there is 0.4" in told
 
 
 def test_the_largest_step(capsys: pytest.CaptureFixture[str]) -> None:
