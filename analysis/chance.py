@@ -1,10 +1,8 @@
 """Distributions that a study may draw a quantity from, and how the study file writes them.
 
-Numbers are drawn through the inverse of the cumulative distribution, so that any sequence in [0, 1)
-serves. The
-densities are those of scipy.stats: norm(mean, sd), triang, lognorm(s, scale=scale). Bounds truncate: the
-rest of the
-density is scaled up.
+Numbers are drawn through the inverse of the cumulative distribution, so that any sequence in [0, 1) serves.
+The densities are those of scipy.stats: norm(mean, sd), triang, lognorm(s, scale=scale). Bounds truncate:
+the rest of the density is scaled up.
 """
 
 from __future__ import annotations

@@ -1,12 +1,11 @@
 """How often a study's rover tips or slips: shares of the drawn cases, each with its interval.
 
 Cases that are drawn independently (sampler `random`) make a binomial count, for which the interval of
-Clopper and
-Pearson (scipy's `binomtest`, method `exact`) covers with at least its confidence. Points of a scrambled Sobol
-sequence are not independent: they fill the space more evenly, the error of a share is as a rule smaller,
-and the same
-interval is then wider than need be; that is no theorem for every set, so it is told as `conservative`. Of a
-Saltelli sample only the first and the last case of each block count: the others repeat their values.
+Clopper and Pearson (scipy's `binomtest`, method `exact`) covers with at least its confidence. Points of a
+scrambled Sobol sequence are not independent: they fill the space more evenly, the error of a share is as a
+rule smaller, and the same interval is then wider than need be; that is no theorem for every set, so it is
+told as `conservative`. Of a Saltelli sample only the first and the last case of each block count: the
+others repeat their values.
 """
 
 from __future__ import annotations

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from rover_pin.analysis.quantities import Quantity
-from rover_pin.analysis.sobol import spread
+from rover_pin.analysis.sobol import spread_all
 from rover_pin.numerics import Array
 
 
@@ -24,6 +24,4 @@ class Independent:
         source = np.random.PCG64([self._seed])
         source.advance(start * len(self._varying))
         points = np.random.Generator(source).random((stop - start, len(self._varying)))
-        place = dict(zip(self._varying, points.T, strict=True))
-        still = np.zeros(stop - start)
-        return {name: spread(asked, place.get(name, still)) for name, asked in self._asked.items()}
+        return spread_all(self._asked, points)

@@ -1,9 +1,8 @@
 """Which of the things that vary matter: Sobol indices of every figure, by SALib from a Saltelli sample.
 
 First order: the share of a figure's variance that is gone when an input is known. Total: the share that is
-left when
-all the others are known. Estimators of Saltelli et al. 2010 (doi:10.1016/j.cpc.2009.09.018), intervals by
-bootstrap.
+left when all the others are known. Estimators of Saltelli et al. 2010 (doi:10.1016/j.cpc.2009.09.018),
+intervals by bootstrap.
 """
 
 from __future__ import annotations
@@ -42,10 +41,8 @@ def sobol_indices(data: xr.Dataset, figures: Mapping[str, Array] | None = None) 
 
     Returns:
         Dimensions figure, input. `first`, `total`; `first_conf`, `total_conf`: half-widths of their 95 %
-        intervals,
-        all [-]; NaN where a figure does not vary. `blocks`, `dropped` (figure). Attribute `refused`:
-        figures of
-        which more than a tenth of the blocks are dropped, one a line.
+        intervals, all [-]; NaN where a figure does not vary. `blocks`, `dropped` (figure). Attribute
+        `refused`: figures of which more than a tenth of the blocks are dropped, one a line.
 
     Raises:
         StudyError: another study's result, or one in which every figure is refused.

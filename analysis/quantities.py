@@ -73,8 +73,7 @@ def quantity(raw: object) -> Quantity:
 
     `{values: [a, b]}` is a choice of two, `{from: lo, to: hi, by: step}` one of evenly spaced values, as is
     `{from: lo, to: hi, count: n}`. Distributions: `{normal: {mean: 10, sd: 0.5, bounds: [8, 12]}}` and the
-    others
-    of `chance.py`; a uniform one is a range.
+    others of `chance.py`; a uniform one is a range.
 
     Raises:
         StudyError: empty, upside down, or not numbers.

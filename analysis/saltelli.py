@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from rover_pin.analysis.quantities import Quantity
-from rover_pin.analysis.sobol import spread
+from rover_pin.analysis.sobol import spread_all
 from rover_pin.errors import InputError, StudyError
 from rover_pin.numerics import Array
 
@@ -49,9 +49,7 @@ class Saltelli:
         if self._drawn is None and stop > start:
             self._drawn = self._sample()
         points = np.empty((0, len(self.inputs))) if self._drawn is None else self._drawn[start:stop]
-        place = dict(zip(self.inputs, points.T, strict=True))
-        still = np.zeros(stop - start)
-        return {name: spread(asked, place.get(name, still)) for name, asked in self._asked.items()}
+        return spread_all(self._asked, points)
 
     def _sample(self) -> Array:
         """(count, inputs) in [0, 1)."""

@@ -165,18 +165,15 @@ def _places(job: Job, spec: CasesSpec) -> Cases:
 
 def _within(asked: Quantity, value: float) -> float:
     """The value a quantity has that is nearest to one."""
-    if isinstance(asked, Span):
-        return min(max(value, asked.low), asked.high)
-    if isinstance(asked, Chance):
-        return min(max(value, asked.ends[0]), asked.ends[1])
+    if isinstance(asked, Span | Chance):
+        low, high = asked.ends
+        return min(max(value, low), high)
     return min(asked.values, key=lambda each: abs(each - value))
 
 
 def _distribution(optuna: Any, asked: Quantity) -> Any:
     """The quantity in the words of Optuna."""
-    if isinstance(asked, Span):
-        return optuna.distributions.FloatDistribution(asked.low, asked.high)
-    if isinstance(asked, Chance):
+    if isinstance(asked, Span | Chance):
         return optuna.distributions.FloatDistribution(*asked.ends)
     return optuna.distributions.CategoricalDistribution(asked.values)
 

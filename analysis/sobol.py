@@ -26,10 +26,7 @@ class Sobol:
 
     def columns(self, start: int, stop: int) -> dict[str, Array]:
         """Every quantity of the points from `start` to before `stop`."""
-        points = self._points(start, stop)
-        place = dict(zip(self._varying, points.T, strict=True))
-        still = np.zeros(stop - start)
-        return {name: spread(asked, place.get(name, still)) for name, asked in self._asked.items()}
+        return spread_all(self._asked, self._points(start, stop))
 
     def _points(self, start: int, stop: int) -> Array:
         """(stop - start, dimensions) in [0, 1)."""
@@ -53,6 +50,14 @@ class Sobol:
         if sequence.num_generated < start:
             sequence.fast_forward(start - sequence.num_generated)
         return sequence
+
+
+def spread_all(columns: Mapping[str, Quantity], points: Array) -> dict[str, Array]:
+    """Every quantity from (n, dimensions) numbers in [0, 1): one dimension for each that varies, in order."""
+    varying = [name for name, asked in columns.items() if asked.varies]
+    place = dict(zip(varying, points.T, strict=True))
+    still = np.zeros(len(points))
+    return {name: spread(asked, place.get(name, still)) for name, asked in columns.items()}
 
 
 def spread(asked: Quantity, unit: Array) -> Array:

@@ -48,14 +48,12 @@ CHEAP = ("loads", "polygon", "tip", "force_angle", "energy", "zmp", "clearance")
 class CasesSpec(Strict):
     """How cases are drawn.
 
-    `random`: n independent draws. `saltelli`: n blocks, a power of two, of D + 2 cases each that change
-    one of
-    the D things that vary at a time, for Sobol indices. `sobol`: n scrambled Sobol points of `seed` over
-    everything that varies. `grid`: every combination, ranges
-    cut into the counts of `grid` (by the quantity's name), or into one common count so that there are at
-    most n cases; where both are silent one range is cut into 41, two into 21 each. `sensitivity`: one design,
-    and each of the parameters `to` (all where silent) moved from it alone by the share `step` of its value.
-    A bare word is a sampler.
+    `random`: n independent draws. `saltelli`: n blocks, a power of two, of D + 2 cases each that change one
+    of the D things that vary at a time, for Sobol indices. `sobol`: n scrambled Sobol points of `seed` over
+    everything that varies. `grid`: every combination, ranges cut into the counts of `grid` (by the
+    quantity's name), or into one common count so that there are at most n cases; where both are silent one
+    range is cut into 41, two into 21 each. `sensitivity`: one design, and each of the parameters `to` (all
+    where silent) moved from it alone by the share `step` of its value. A bare word is a sampler.
     """
 
     sampler: Literal["sobol", "random", "saltelli", "grid", "sensitivity"] = "sobol"
@@ -127,11 +125,9 @@ BOUND = "give bounds, as {normal: {mean: 10, sd: 1, bounds: [7, 13]}}"
 class VarySpec(Strict):
     """What varies: x, y [m], yaw [deg], postures, parameters, joints [rad or m], friction, masses.
 
-    `mass`: kg, of links by name or of the whole `robot` (all links scaled alike; the word alone may be
-    left out);
-    `com`: how far the centre of mass of a link is moved in the link's frame, of the `robot` in the root
-    link's;
-    `payload`: on the base.
+    `mass`: kg, of links by name or of the whole `robot` (all links scaled alike; the word alone may
+    be left out); `com`: how far the centre of mass of a link is moved in the link's frame, of the `robot` in
+    the root link's; `payload`: on the base.
 
     What is silent does not vary: the middle of the map (the origin where it has no edge), heading 0, home,
     declared parameters and friction.

@@ -1,8 +1,7 @@
 """Masses that vary: what the study file says of them as columns, and columns as changes of a rover.
 
 Columns are `mass/LINK` (kg), `com/LINK/x` (m, along the link's axes) and `payload/kg`, `payload/x` (m, in
-the root
-link's frame); LINK may be `robot`.
+the root link's frame); LINK may be `robot`.
 """
 
 from __future__ import annotations

@@ -1,10 +1,8 @@
 """Masses and first moments of a rover whose masses are others than its files say, many rovers at once.
 
 All of statics hangs on the mass m_j of what is fixed to a joint and on its first moment m_j c_j. A link of
-mass m
-with its centre at c (in the joint's frame) that weighs m' and is moved by d (in the link's own frame, R to
-the
-joint's) changes them by m' - m and by (m' - m) c + m' R d.
+mass m with its centre at c (in the joint's frame) that weighs m' and is moved by d (in the link's own
+frame, R to the joint's) changes them by m' - m and by (m' - m) c + m' R d.
 """
 
 from __future__ import annotations

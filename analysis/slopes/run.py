@@ -62,7 +62,7 @@ def slopes(
     Raises:
         InputError: a number, posture, joint or lock that cannot be used.
 
-    Cost: 0.4 to 2.5 s a heading, about 45 stances; 10 to 20 s for a rover on tracks.
+    Cost: 0.4 to 2.5 s a heading, about 45 stances; half a minute for a rover on tracks.
     """
     if isinstance(headings, bool) or not isinstance(headings, int | np.integer) or not 1 <= headings <= MOST:
         raise InputError(f"must be a whole number from 1 to {MOST}", element="headings", value=headings)

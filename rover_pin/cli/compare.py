@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import string
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -24,8 +23,6 @@ from rover_pin.errors import InputError
 
 if TYPE_CHECKING:
     from rover_pin.analysis.comparison import Comparison
-
-INTERRUPTED = 130
 
 
 def compare(
@@ -72,7 +69,7 @@ def compare(
 ) -> int:
     """Two or more designs on the same terrain, at the same places, with the same draws."""
     from rover_pin.cli.compare_report import comparison_object, print_comparison
-    from rover_pin.cli.output import aside, check_outputs, print_json
+    from rover_pin.cli.output import INTERRUPTED, aside, check_outputs, print_json
 
     check_outputs(out, html)
     results = [word for word in designs if word.endswith(".nc")]
@@ -85,17 +82,8 @@ def compare(
     if results:
         found = _read(designs, results, said, seed or 0)
     else:
-        keys: dict[str, Any] = {}
-        if terrain is not None:
-            from rover_pin.terrain import Terrain
-
-            keys["terrain"] = Terrain.parse(terrain, spacing, interpolation, height_scale, height_offset)
-        if measure:
-            keys["measures"] = measure
-        if package:
-            keys["packages"] = pairs(package, "--package")
-        if skip_missing_includes:
-            keys["skip_missing_includes"] = True
+        map_ = (terrain, spacing, interpolation, height_scale, height_offset)
+        keys = _keys(map_, measure, package, skip_missing_includes)
         try:
             found = _run(designs, study, (gravity, payload), (cases, seed), keys, (engine, workers, kept))
         except KeyboardInterrupt:
@@ -114,6 +102,28 @@ def compare(
         if written is not None:
             aside(f"wrote {written}")
     return 0 if any(pair.both for pair in found.pairs) else 1
+
+
+def _keys(
+    map_: tuple[str | None, float | None, str, float | None, float],
+    measures: list[str] | None,
+    package: list[str] | None,
+    skip_missing_includes: bool,
+) -> dict[str, Any]:
+    """Entries of the study that options replace."""
+    keys: dict[str, Any] = {}
+    word, spacing, interpolation, scale, offset = map_
+    if word is not None:
+        from rover_pin.terrain import Terrain
+
+        keys["terrain"] = Terrain.parse(word, spacing, interpolation, scale, offset)
+    if measures:
+        keys["measures"] = measures
+    if package:
+        keys["packages"] = pairs(package, "--package")
+    if skip_missing_includes:
+        keys["skip_missing_includes"] = True
+    return keys
 
 
 def _run(
@@ -176,5 +186,6 @@ def _places(out: Path | None, designs: list[str]) -> dict[str, Path]:
     """Where each design's result goes: OUT_A.nc and so on."""
     if out is None:
         return {}
-    names = [*string.ascii_uppercase, *(str(k) for k in range(27, len(designs) + 1))]
-    return {word: out.with_name(f"{out.stem}_{name}.nc") for word, name in zip(designs, names, strict=False)}
+    from rover_pin.analysis.comparison.names import letters
+
+    return {word: out.with_name(f"{out.stem}_{name}.nc") for word, name in letters(designs).items()}

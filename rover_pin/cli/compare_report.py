@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import string
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rover_pin.analysis.comparison.names import letters, lone
 from rover_pin.cli.output import figure, line, new_table, print_table
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def print_comparison(found: Comparison, seconds: float) -> None:
         f"{len(found.labels)} designs on {first.attrs['terrain']}: "
         f"the same {found.cases} cases, {seconds:.1f} s"
     )
-    letter = letters(found)
+    letter = letters(found.labels)
     for each in found.designs:
         ended = "  ".join(f"{word} {_share(count / found.cases)}" for word, count in each.status.items())
         low, high = each.tipping_interval
@@ -52,12 +52,6 @@ def print_comparison(found: Comparison, seconds: float) -> None:
     _print_measures(found, letter)
     for pair in found.pairs:
         _print_pair(found, pair, letter)
-
-
-def letters(found: Comparison) -> dict[str, str]:
-    """A short name for each design."""
-    names = [*string.ascii_uppercase, *(str(k) for k in range(27, len(found.labels) + 1))]
-    return dict(zip(found.labels, names, strict=False))
 
 
 def _share(share: float) -> str:
@@ -102,12 +96,5 @@ def _print_pair(found: Comparison, pair: Pair, letter: Mapping[str, str]) -> Non
             letter.get(each.winner, "-"),
         )
     print_table(table)
-    for one, other, cases, ended in (
-        (a, b, pair.only_first, pair.otherwise_second),
-        (b, a, pair.only_second, pair.otherwise_first),
-    ):
-        if cases:
-            how = ", ".join(f"{word} {count}" for word, count in ended.items())
-            more = ", ..." if len(cases) > NAMED else ""
-            named = ", ".join(map(str, cases[:NAMED])) + more
-            line(f"only {one} settles in {len(cases)} ({other}: {how}): cases {named}")
+    for told in lone(pair, letter, NAMED):
+        line(told)

@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from rover_pin.rover import Rover
     from rover_pin.terrain import Terrain
 
-INTERRUPTED = 130
-
 
 def mobility(
     map_file: Annotated[
@@ -71,7 +69,7 @@ def mobility(
     from rover_pin.analysis.words import gravity as parse_gravity
     from rover_pin.analysis.words import posture as parse_posture
     from rover_pin.cli.mobility_report import mobility_object, print_mobility
-    from rover_pin.cli.output import announce_compilation, aside, check_outputs, print_json
+    from rover_pin.cli.output import INTERRUPTED, announce_compilation, aside, check_outputs, print_json
     from rover_pin.cli.progress import progress_bar
     from rover_pin.terrain import Terrain
 

@@ -14,6 +14,9 @@ from rover_pin.kernel_cache import is_batch_cold, is_cold
 if TYPE_CHECKING:
     from rich.table import Table
 
+INTERRUPTED = 130
+"""The exit code of what Ctrl-C ended."""
+
 
 def plain(value: Any) -> Any:
     """`value` as JSON can carry it: numbers that are not finite become null."""

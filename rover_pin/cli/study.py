@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 
     from rover_pin.analysis.study import Study
 
-INTERRUPTED = 130
 DRAWN = 50
 """Designs at most that a page draws each in its own shape."""
 
@@ -43,7 +42,7 @@ def study(
     from rover_pin.analysis import Study, probabilities
     from rover_pin.analysis.summary import statuses
     from rover_pin.cli.chance_report import chances_object, print_chances
-    from rover_pin.cli.output import announce_compilation, aside, check_outputs, print_json
+    from rover_pin.cli.output import INTERRUPTED, announce_compilation, aside, check_outputs, print_json
     from rover_pin.cli.progress import progress_bar
     from rover_pin.cli.sensitivity_report import print_slopes, slopes_object
     from rover_pin.cli.study_report import print_study, study_object

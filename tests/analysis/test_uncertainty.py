@@ -12,6 +12,7 @@ import pytest
 import xarray as xr
 from scipy import stats
 
+from rover_pin import Terrain, load, settle
 from rover_pin.analysis import Study, probabilities, sobol_indices
 from rover_pin.analysis.cases import Questions
 from rover_pin.analysis.draw import draw
@@ -233,3 +234,20 @@ def test_a_shift_moves_the_whole_centre_of_mass(weighed: SimpleNamespace) -> Non
     np.testing.assert_allclose(moved.mass * after, expected, atol=1e-9)
     again = moved.with_masses(Masses(kg={"robot": 10.0}))
     assert again.mass == pytest.approx(13.0)
+
+
+def test_a_links_mass_and_a_parameter_vary_together() -> None:
+    vary = {"x": [-3, 3], "parameters": {"body_mass": [50, 90]}, "mass": {"rocker_l_link": [1, 5]}}
+    data = Study(
+        "rocker_bogie", "slope:5", cases={"sampler": "random", "n": 6}, vary=vary, measures=["tip"]
+    ).run()
+    nominal = load("rocker_bogie")
+    rest = nominal.mass - nominal.parameters["body_mass"] - float(nominal.bodies["rocker_l_link"].mass[0])
+    weight = 9.81 * (rest + data.body_mass + data.mass_rocker_l_link)
+    np.testing.assert_allclose(data.load_n.sum("wheel"), weight, rtol=1e-9)
+    for i in range(len(data.case)):
+        rover = load("rocker_bogie", body_mass=float(data.body_mass[i]))
+        rover = rover.with_masses(Masses(kg={"rocker_l_link": float(data.mass_rocker_l_link[i])}))
+        stance = settle(rover, Terrain.slope(5.0), x=float(data.x_m[i]))
+        loads = [stance.loads[wheel] for wheel in data.wheel.values]
+        np.testing.assert_allclose(data.load_n.values[i], loads, atol=1e-8 * rover.mass * 9.81)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-import string
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rover_pin.analysis.comparison.names import letters, lone
 from rover_pin.viz.comparison import plot_pair, plot_spreads
 from rover_pin.viz.page.html import write_whole
 from rover_pin.viz.page.sheet import card, drawing, sheet, table
@@ -42,11 +42,7 @@ def save_comparison_page(found: Comparison, path: str | Path) -> Path:
 
 def comparison_page(found: Comparison) -> str:
     """The page's HTML text."""
-    names = dict(
-        zip(
-            found.labels, [*string.ascii_uppercase, *map(str, range(27, 1 + len(found.labels)))], strict=False
-        )
-    )
+    names = letters(found.labels)
     data = next(iter(found.datasets.values()))
     cards = [_designs(found, names), *(_pair(found, pair, names) for pair in found.pairs)]
     cards += [_measure(found, measure, names) for measure in ranked(found.units)]
@@ -90,14 +86,7 @@ def _pair(found: Comparison, pair: Pair, names: Mapping[str, str]) -> str:
         winner = names.get(told.winner, "–")
         rows.append([title_of(measure), numbers[0], f"{numbers[1]} to {numbers[2]}", unit, *shares, winner])
     notes = [f"{pair.both} cases settle in both, {pair.neither} in neither."]
-    for one, other, cases, ended in (
-        (a, b, pair.only_first, pair.otherwise_second),
-        (b, a, pair.only_second, pair.otherwise_first),
-    ):
-        if cases:
-            how = ", ".join(f"{word} {count}" for word, count in ended.items())
-            named = ", ".join(map(str, cases[:NAMED])) + (", ..." if len(cases) > NAMED else "")
-            notes.append(f"Only {one} settles in {len(cases)} ({other}: {how}): cases {named}.")
+    notes += [f"{told[0].upper()}{told[1:]}." for told in lone(pair, names, NAMED)]
     return card(f"{b} less {a}, case by case", table(head, rows), " ".join(notes))
 
 

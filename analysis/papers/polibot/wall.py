@@ -2,8 +2,8 @@
 
 Against the wall the idler is pushed back and, by the track, pulled up: forces across gravity, for which the
 paper gives neither friction nor the motors' effort. Contacts here carry along gravity only, so the wall
-cannot be had. What
-can: the front lifted by a ledge, first under the idler, then under the front road wheel, until the way ends.
+cannot be had. What can: the front lifted by a ledge, first under the idler, then under the front road
+wheel, until the way ends.
 """
 
 from __future__ import annotations
