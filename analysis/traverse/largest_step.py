@@ -39,8 +39,8 @@ class LargestStep:
         friction_needed: [-] the most that the largest climbed step asks for; NaN where none.
         torque_needed: N m, likewise; NaN where none, or no wheel is driven.
         effort_share: [-] likewise.
-        unresolved_m: m of the way, as `traverse` tells it, of the largest climbed step: where this is more
-            than 0 a peak may have been missed.
+        unresolved_m: m of the way, as `traverse` tells it, of the largest climbed step: above 0, a peak may
+            have been missed.
         trials: heights that were tried, m, in order.
         climbs: whether each was climbed.
     """

@@ -113,20 +113,13 @@ def print_traverse(data: xr.Dataset) -> None:
             *(fixed(entry[key], 3) for key in ("way_m", "x_m", "y_m")),
         )
     print_table(table)
-    ends = (
-        [
-            math.degrees(float(f(data[f"{name}_rad"])))
-            for name in ("roll", "pitch")
-            for f in (np.nanmin, np.nanmax)
-        ]
-        if (data["status"].values.astype(str) == "settled").any()
-        else []
-    )
-    if ends:
-        line(f"roll {ends[0]:.2f} to {ends[1]:.2f} deg, pitch {ends[2]:.2f} to {ends[3]:.2f} deg")
+    if (data["status"].values.astype(str) == "settled").any():
+        angles = [np.degrees(data[f"{name}_rad"].values) for name in ("roll", "pitch")]
+        (low, high), (down, up) = ((np.nanmin(each), np.nanmax(each)) for each in angles)
+        line(f"roll {fixed(low, 2)} to {fixed(high, 2)} deg, pitch {fixed(down, 2)} to {fixed(up, 2)} deg")
     if about["unresolved_m"]:
-        gap = f"{1e3 * float(about['unresolved_m']):.2g} mm of the way"
-        line(f"something changes within {gap} where no stance was found: a peak may be missed")
+        gap = 1e3 * float(about["unresolved_m"])
+        line(f"something changes within {gap:.2g} mm where no stance was found: a peak may be missed")
     if about["passed"]:
         line("passed")
         return
