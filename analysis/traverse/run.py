@@ -133,12 +133,22 @@ def driven(
         progress(len(along), len(along))
 
 
-def _onto(follower: Follower, last: Step, place: Place, friction: float | None, depth: int) -> Iterator[Step]:
+def _onto(
+    follower: Follower,
+    last: Step,
+    place: Place,
+    friction: float | None,
+    depth: int,
+    beyond: Step | None = None,
+) -> Iterator[Step]:
     """From one place to another, by their middle first where the two differ much.
 
-    A middle where the solver finds no stance is passed over; a place of the path itself is asked beside.
+    A middle to which the solver finds no way from `last` is asked from the place `beyond` it; one that has
+    none from there either is passed over. A place of the path itself is asked beside.
     """
     there = ask(follower.at(place, last.stood), friction)
+    if there.limit == NOT_FOUND and beyond is not None and beyond.stood.footing is not None:
+        there = ask(follower.at(place, beyond.stood), friction)
     if there.limit == NOT_FOUND and depth == DEPTH:
         there = _beside(follower, last, there, friction)
     if there.limit == NOT_FOUND:
@@ -147,11 +157,12 @@ def _onto(follower: Follower, last: Step, place: Place, friction: float | None, 
         return
     if depth and last.limit != NOT_FOUND and _differ(last, there):
         before = last
-        for each in _onto(follower, last, place.towards(last.stood.place, 0.5), friction, depth - 1):
+        middle = place.towards(last.stood.place, 0.5)
+        for each in _onto(follower, last, middle, friction, depth - 1, there):
             yield each
             last = each
         if last is not before:
-            rest = list(_onto(follower, last, place, friction, depth - 1))
+            rest = list(_onto(follower, last, place, friction, depth - 1, there))
             yield from rest or [there]
             return
     yield there
@@ -168,10 +179,13 @@ def _beside(follower: Follower, last: Step, failed: Step, friction: float | None
 
 
 def _differ(a: Step, b: Step) -> bool:
-    """Whether something changed at once: a contact, the stance's existence, or what stops it."""
-    if a.limit != b.limit:
-        return True
+    """Whether something changed at once: a contact, the stance's existence, or from passing to what stops it.
+
+    Where it has stopped by friction or torque and passes again nothing but contacts counts.
+    """
     one, other = _normals(a), _normals(b)
+    if a.limit != b.limit and (a.passes or not (one and other)):
+        return True
     if not one or not other:
         return False
     return any(_apart(one.get(wheel), other.get(wheel)) for wheel in one.keys() | other.keys())

@@ -79,7 +79,11 @@ def ask(stood: Stood, friction: float | None) -> Step:
     if grip.value < -ROUNDING:
         least = grip.details.get("least", math.inf)
         given = least + grip.value
-        why = f"needs friction {least:.4g} where there is {given:.4g}" if grip.answered else grip.note
+        why = (
+            f"needs friction {_above(least, given)} where there is {given:.4g}"
+            if grip.answered
+            else grip.note
+        )
         return Step(stood, grip, limit="friction", why=why, limiting=grip.limiting or "")
     torque = MEASURES["torque"].evaluate(standing)
     if not torque.edges:
@@ -87,8 +91,15 @@ def ask(stood: Stood, friction: float | None) -> Step:
     share, wheel = effort_share(stance.rover, standing.problem)
     if share <= 1.0 + ROUNDING or math.isnan(share):
         return Step(stood, grip, torque, share, wheel)
-    why = f"the drives would have to give {100 * share:.0f} % of their efforts"
+    why = f"the drives would have to give {_above(100.0 * share, 100.0)} % of their efforts"
     return Step(stood, grip, torque, share, wheel, "torque", why, wheel)
+
+
+def _above(value: float, limit: float) -> str:
+    """A figure with as many digits as show that it is above the limit, four at least."""
+    return next(
+        (text for digits in range(4, 10) if float(text := f"{value:.{digits}g}") > limit), f"{value:.9g}"
+    )
 
 
 def effort_share(rover: Rover, problem: FrictionProblem) -> tuple[float, str]:
