@@ -125,7 +125,7 @@ def driven(
         if last is None:
             steps = iter([ask(follower.at(place, None), friction)])
         else:
-            steps = _onto(follower, last, place, friction, DEPTH)
+            steps = _onto(follower, last, place, friction)
         for one in steps:
             last = one
             yield one
@@ -133,39 +133,36 @@ def driven(
         progress(len(along), len(along))
 
 
-def _onto(
-    follower: Follower,
-    last: Step,
-    place: Place,
-    friction: float | None,
-    depth: int,
-    beyond: Step | None = None,
-) -> Iterator[Step]:
-    """From one place to another, by their middle first where the two differ much.
-
-    A middle to which the solver finds no way from `last` is asked from the place `beyond` it; one that has
-    none from there either is passed over. A place of the path itself is asked beside.
-    """
+def _onto(follower: Follower, last: Step, place: Place, friction: float | None) -> Iterator[Step]:
+    """From one place of the path to the next, and what lies between where the two differ much."""
     there = ask(follower.at(place, last.stood), friction)
-    if there.limit == NOT_FOUND and beyond is not None and beyond.stood.footing is not None:
-        there = ask(follower.at(place, beyond.stood), friction)
-    if there.limit == NOT_FOUND and depth == DEPTH:
-        there = _beside(follower, last, there, friction)
     if there.limit == NOT_FOUND:
-        if depth == DEPTH:
-            yield there
-        return
-    if depth and last.limit != NOT_FOUND and _differ(last, there):
-        before = last
-        middle = place.towards(last.stood.place, 0.5)
-        for each in _onto(follower, last, middle, friction, depth - 1, there):
-            yield each
-            last = each
-        if last is not before:
-            rest = list(_onto(follower, last, place, friction, depth - 1, there))
-            yield from rest or [there]
-            return
+        there = _beside(follower, last, there, friction)
+    between = list(_between(follower, last, there, friction, DEPTH))
+    yield from between
+    if between:  # by small steps it may come there otherwise than at once
+        again = ask(follower.at(there.stood.place, between[-1].stood), friction)
+        there = there if again.limit == NOT_FOUND else again
     yield there
+
+
+def _between(follower: Follower, a: Step, b: Step, friction: float | None, depth: int) -> Iterator[Step]:
+    """Halves of halves where something changes at once.
+
+    A middle to which the solver finds no way from `a` is asked from `b`; one that has none from there either
+    is passed over.
+    """
+    if not depth or NOT_FOUND in (a.limit, b.limit) or not _differ(a, b):
+        return
+    place = b.stood.place.towards(a.stood.place, 0.5)
+    middle = ask(follower.at(place, a.stood), friction)
+    if middle.limit == NOT_FOUND and b.stood.footing is not None:
+        middle = ask(follower.at(place, b.stood), friction)
+    if middle.limit == NOT_FOUND:
+        return
+    yield from _between(follower, a, middle, friction, depth - 1)
+    yield middle
+    yield from _between(follower, middle, b, friction, depth - 1)
 
 
 def _beside(follower: Follower, last: Step, failed: Step, friction: float | None) -> Step:
