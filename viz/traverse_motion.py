@@ -73,7 +73,7 @@ def traverse_run(dataset: xr.Dataset, rover: Rover, terrain: Terrain) -> Run:
         indices,
         {},
         loads,
-        status="done" if passed else "stops",
+        status="passed" if passed else "stops",
         reason="" if passed else f"{dataset.attrs['stop_limit']}: {dataset.attrs['stop_why']}",
     )
 
@@ -112,6 +112,4 @@ def save_traverse_html(dataset: xr.Dataset, rover: Rover, terrain: Terrain, path
         InputError: as `traverse_run`, or the file cannot be written.
     """
     run = traverse_run(dataset, rover, terrain)
-    return save_motion_html(
-        {"traverse": run}, path, title=f"{dataset.attrs['robot']} on {dataset.attrs['terrain']}"
-    )
+    return save_motion_html({"traverse": run}, path, title=f"{dataset.attrs['robot']} along a line")

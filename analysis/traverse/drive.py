@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from rover_pin.analysis.traverse.follow import Follower
+from rover_pin.analysis.traverse.leap import checked
 from rover_pin.analysis.traverse.path import Place
 from rover_pin.analysis.traverse.step import Step, ask
 from rover_pin.statics.stance import Status
@@ -48,8 +49,8 @@ def driven(
         else:
             steps = _onto(follower, last, place, friction)
         for one in steps:
-            last = one
-            yield one
+            last = one if last is None else checked(last, one)
+            yield last
     if progress is not None:
         progress(len(along), len(along))
 

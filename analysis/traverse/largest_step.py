@@ -32,7 +32,7 @@ class LargestStep:
     Attributes:
         climbed: m, the largest height that it was found to climb; 0 where none.
         stopped: m, the least that stops it; inf where it climbs the highest that was asked for.
-        limit: what stops it there: `friction`, `torque`, `tip`, `belly contact` or a status; else empty.
+        limit: what stops it there: `friction`, `torque`, `leap`, `tip`, `belly contact` or a status; or "".
         why: in words.
         limiting: wheel, joint or link.
         stop_m: m along the path, where it stops there.
@@ -80,7 +80,8 @@ def largest_step(
     """Bisect over the height of a step that the rover drives up, friction and the drives' efforts given.
 
     A trial is a `traverse` of `Terrain.step(height, edge, riser)` that ends where it stops. Heights between
-    the two that are told were not tried; what lies above one that stops it is taken to stop it too.
+    the two that are told were not tried; what lies above one that stops it is taken to stop it too. Where
+    `limit` is `leap`, what higher steps ask for is not known.
 
     Args:
         rover: what climbs.

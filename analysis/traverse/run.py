@@ -50,7 +50,8 @@ def traverse(
     Friction is the least coefficient with which forces hold the rover, passive joints counted (Thueer et al.
     2006); torque the least possible largest torque of a driven wheel within the friction given (Noble and
     Issac 2019). Both are of rest: no rolling resistance, no speed, no turning moment. It stops where the
-    friction is not enough, where drives would need more than the URDF's `effort`, or where it does not stand.
+    friction is not enough, where drives would need more than the URDF's `effort`, where a wheel would have to
+    rise at once (`leap`), or where it does not stand.
 
     Args:
         rover: what drives.

@@ -41,7 +41,7 @@ class Step:
         torque: of `torque`; None where it does not stand or has no driven wheel.
         share: least largest share of the drives' efforts [-]; NaN where no drive has one, or no answer.
         share_at: the drive's wheel that has it.
-        limit: what stops it here: `friction`, `torque`, `tip`, `belly contact` or a status; else empty.
+        limit: what stops it here: `friction`, `torque`, `leap`, `tip`, `belly contact` or a status; or "".
         why: in words.
         limiting: wheel, joint or link.
     """

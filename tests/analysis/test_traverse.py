@@ -174,7 +174,7 @@ def test_the_motion_and_the_figure_follow_the_path(stepped, tmp_path):
         "height [m]",
     ]
     page = rp.viz.save_traverse_html(stepped, rover, terrain, tmp_path / "t.html").read_text()
-    assert "rigid4 on step:0.04,0" in page
+    assert "rigid4 along a line" in page
 
 
 def test_waypoints_from_words_numbers_and_files(tmp_path):
@@ -327,3 +327,22 @@ def test_a_rover_alike_at_both_ends_asks_the_same_both_ways():
         np.testing.assert_allclose(there.load_n.sel(wheel=wheel), again.load_n.sel(wheel=other), atol=1e-4)
     # and what it asks for on the way up it asks for, the other way about, on the way down
     np.testing.assert_allclose(there.friction_needed, there.friction_needed[::-1], atol=1e-6)
+
+
+def test_a_wheel_that_rises_at_once_stops_it_and_one_that_falls_does_not():
+    rover = rp.load("rocker_bogie")
+    terrain = rp.Terrain.step(0.13, 0.0, 0.005)  # as high as the wheels' radius
+    up = traverse(rover, terrain, "-0.9,0;-0.5,0", step=0.1, friction=2.0, measures=(), until_stop=True)
+    assert (up.attrs["passed"], up.attrs["stop_limit"]) == (0, "leap")
+    assert up.attrs["stop_at"] in {"fl", "fr"}
+    before, after = (up.wheel_m.sel(wheel=up.attrs["stop_at"]).values[k] for k in (-2, -1))
+    moved = float(np.linalg.norm(after - before))
+    assert moved > 0.02  # m, within less than a millimetre of the way
+    assert float(up.way_m[-1] - up.way_m[-2]) < 1e-3
+    assert up.attrs["stop_why"] == (
+        f"{up.attrs['stop_at']} would have to move {1e3 * moved:.3g} mm at once,"
+        " and what is asked for between is not known"
+    )
+    down = traverse(rover, terrain, "0.9,0;-0.5,0", step=0.1, friction=2.0, measures=())
+    assert "leap" not in down.limit.values
+    assert float(down.pitch_rad.max()) > 0.05
