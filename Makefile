@@ -8,11 +8,12 @@ export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
-.PHONY: help study test clean
+.PHONY: help study test docs clean
 
 help:
 	@echo "make study   the default study into $(OUT)/study.nc and $(OUT)/study.html"
 	@echo "make test    lint, types, tests"
+	@echo "make docs    the documentation into $(OUT)/docs"
 	@echo "make clean   removes .venv, $(OUT) and caches"
 
 study: .venv/installed
@@ -27,6 +28,10 @@ test: .venv/installed-test
 	$(BIN)/mypy
 	$(BIN)/python -m pytest -q -n 2
 
+docs: .venv/installed-docs
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict
+	@echo "pages: $(CURDIR)/$(OUT)/docs/index.html (open it in a browser)"
+
 .venv/bin/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10) and "Python 3.10 or newer is needed: make PYTHON=/path/to/python3")'
 	$(PYTHON) -m venv .venv
@@ -38,6 +43,10 @@ test: .venv/installed-test
 
 .venv/installed-test: .venv/bin/python pyproject.toml
 	$(BIN)/python -m pip install -q -e '.[test,lint]'
+	@touch .venv/installed $@
+
+.venv/installed-docs: .venv/bin/python pyproject.toml
+	$(BIN)/python -m pip install -q -e '.[docs]'
 	@touch .venv/installed $@
 
 clean:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +11,7 @@ import xarray as xr
 
 from rover_pin.analysis.cases import Cases
 from rover_pin.analysis.found import Found, found_in
-from rover_pin.analysis.provenance import git_state, versions
+from rover_pin.analysis.provenance import git_state, made_by
 from rover_pin.analysis.rows import Columns
 from rover_pin.analysis.schema import CASE, Block, schema
 from rover_pin.analysis.vocabulary import Words
@@ -48,7 +47,6 @@ def attributes(study: Study, found: Found) -> dict[str, Any]:
     """Where the numbers come from."""
     ready = study.plan
     commit, state = git_state(study.folder)
-    own_commit, own_state = git_state(Path(__file__).resolve().parent)
     return {
         "title": f"{ready.rover.name} on {ready.job.terrain.label}",
         "robot": study.spec.robot,
@@ -66,10 +64,7 @@ def attributes(study: Study, found: Found) -> dict[str, Any]:
         "plain_path_cases": found.plain,
         "git_commit": commit,
         "git_state": state,
-        "rover_pin_git_commit": own_commit,
-        "rover_pin_git_state": own_state,
-        **{f"{name}_version": text for name, text in versions().items()},
-        "created": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
+        **made_by(),
     }
 
 
@@ -82,14 +77,21 @@ def read(path: Path) -> xr.Dataset:
     Raises:
         StudyError: no such file, or not the result of a study.
     """
+    from rover_pin.analysis.sound import check_sound
+
     if not path.is_file():
         raise StudyError("no such file", file=path, cure="make one with rover-pin study -o")
     try:
         data = xr.open_dataset(path, engine="h5netcdf", drop_variables=[CASE])
-    except (OSError, ValueError, KeyError) as error:
-        raise StudyError(f"is no netCDF file: {error}", file=path) from None
-    if "study" not in data.attrs or "status" not in data:
+    except Exception as error:  # HDF5 raises whatever a damaged file makes it raise
+        raise StudyError(f"is no netCDF file, or a damaged one: {error}", file=path) from None
+    if "study" not in data.attrs or "status" not in data or CASE not in data.sizes:
         data.close()
         raise StudyError("is not the result of a study", file=path, cure="make one with rover-pin study -o")
+    try:
+        check_sound(data, path)
+    except StudyError:
+        data.close()
+        raise
     # A range index: the numbers of the cases take no memory, however many there are.
     return data.assign_coords({CASE: pd.RangeIndex(data.sizes[CASE])})

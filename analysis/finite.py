@@ -17,7 +17,7 @@ def number(raw: object) -> float:
         if isinstance(raw, bool) or raw is None:
             raise TypeError
         value = float(raw)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise StudyError("is not a number", value=raw) from None
     if not math.isfinite(value):
         raise StudyError("is not a finite number", value=raw)

@@ -17,7 +17,10 @@ from rover_pin.analysis.vocabulary import Words, longest
 BLOCK = 1 << 16
 """Cases a block, and a chunk of the file."""
 
-PACKED: dict[str, Any] = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
+CHECKED: dict[str, Any] = {"fletcher32": True}
+"""Every block with its checksum, so that a damaged file says so."""
+
+PACKED: dict[str, Any] = {**CHECKED, "compression": "gzip", "compression_opts": 1, "shuffle": True}
 """For words and small whole numbers, which shrink to a tenth. Measured floats do not shrink by more than a
 tenth and would take longer to pack than to compute, so they are stored as they are."""
 
@@ -98,7 +101,7 @@ def _create(file: Any, each: Variable, count: int) -> Any:
         # Column by column: what is never written takes no room on the disk and reads as NaN.
         chunks = (rows, *(1 if each.sparse else max(size, 1) for size in sizes))
         fill = np.nan if each.sparse else None
-        made = file.create_variable(each.name, each.dims, "f8", chunks=chunks, fillvalue=fill)
+        made = file.create_variable(each.name, each.dims, "f8", chunks=chunks, fillvalue=fill, **CHECKED)
     for name, value in each.attrs.items():
         made.attrs[name] = value
     return made

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -24,7 +23,7 @@ from rover_pin.analysis.rows import BOUNDS, Layout
 from rover_pin.analysis.spec import StudySpec, VarySpec
 from rover_pin.analysis.weights import check_weights, weights_of
 from rover_pin.analysis.words import posture
-from rover_pin.errors import InputError, StudyError, nearest
+from rover_pin.errors import InputError, StudyError, naming, nearest
 from rover_pin.stability.report import inapplicable
 
 if TYPE_CHECKING:
@@ -56,14 +55,14 @@ def plan(spec: StudySpec, folder: Path, file: object, given: Rover | None = None
     Raises:
         InputError: a file, name or range that cannot be used; errors of the study name `file`.
     """
-    terrain: Terrain = spec.terrain.build(folder)
-    base = load_from(spec, folder) if given is None else loaded(given, spec)
-    with _named(file):
+    with naming(file):
+        terrain: Terrain = spec.terrain.build(folder)
+        base = load_from(spec, folder) if given is None else loaded(given, spec)
         asked = asked_of(spec, base)
     rovers = _corner_rovers(base, asked, file)
     rover = rovers[0]
     _check_names(spec, rover, file)
-    with _named(file):
+    with naming(file):
         check_weights(weights_of(spec.vary), rover)
         cases = draw(_questions(spec.vary, asked, rovers, terrain), spec.cases)
     wheels = tuple(shape.name for shape in rover.shapes)
@@ -100,17 +99,6 @@ def plan(spec: StudySpec, folder: Path, file: object, given: Rover | None = None
         **{f"the version of {name}": text for name, text in versions().items()},
     }
     return Plan(job, rover, left_out, made_of)
-
-
-@contextlib.contextmanager
-def _named(file: object) -> Iterator[None]:
-    """Errors of the study name its file."""
-    try:
-        yield
-    except StudyError as error:
-        raise StudyError(
-            error.what, file=file, element=error.element, value=error.value, cure=error.cure
-        ) from None
 
 
 def _traced(rover: Rover, asked: Mapping[str, Quantity], measures: Sequence[str]) -> TracedText | None:

@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+import datetime
 import hashlib
 import platform
 import subprocess
+from collections.abc import Iterable, Mapping
 from importlib import metadata
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rover_pin.payload import told
+
+if TYPE_CHECKING:
+    from rover_pin.rover import Rover
 
 PACKAGES = {
     "rover_pin": "rover-pin",
@@ -16,6 +24,37 @@ PACKAGES = {
     "scipy": "scipy",
     "numba": "numba",
 }
+
+
+def made_by() -> dict[str, str]:
+    """Attributes of a result: the state of this package, versions of what computes the numbers, the time."""
+    commit, state = git_state(Path(__file__).resolve().parent)
+    return {
+        "rover_pin_git_commit": commit,
+        "rover_pin_git_state": state,
+        **{f"{name}_version": text for name, text in versions().items()},
+        "created": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
+    }
+
+
+def stands_how(
+    rover: Rover,
+    posture: str | Mapping[str, float] | None,
+    gravity: float,
+    joints: Mapping[str, float] | None = None,
+    locks: Iterable[str] = (),
+) -> dict[str, Any]:
+    """Attributes of a result: which rover stood, and how it was held and loaded."""
+    return {
+        "robot": rover.name,
+        "robot_file": str(rover.source),
+        "parameters": ", ".join(f"{name}={value!r}" for name, value in rover.parameters.items()),
+        "posture": "home" if posture is None else str(posture),
+        "joints": ", ".join(f"{name}={value!r}" for name, value in (joints or {}).items()),
+        "locks": ", ".join(locks),
+        "gravity": float(gravity),
+        "payload": told(rover.recipe.payload),
+    }
 
 
 def versions() -> dict[str, str]:

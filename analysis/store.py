@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from rover_pin.analysis.job import Chunk
 from rover_pin.analysis.rows import Columns, joined
 from rover_pin.errors import StudyError
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 class Memory:
@@ -68,6 +71,20 @@ def atomically(path: Path, write: Callable[[BinaryIO], object]) -> None:
             write(file)
             file.flush()
             os.fsync(file.fileno())
+        draft.replace(path)
+    finally:
+        draft.unlink(missing_ok=True)
+
+
+def save_netcdf(data: xr.Dataset, path: Path, encoding: Mapping[str, Any]) -> None:
+    """Write a Dataset as netCDF-4: whole or not there.
+
+    Raises:
+        OSError: it could not be written; nothing is left behind.
+    """
+    draft = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    try:
+        data.to_netcdf(draft, engine="h5netcdf", encoding=encoding)
         draft.replace(path)
     finally:
         draft.unlink(missing_ok=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from rover_pin.analysis.finite import number
+from rover_pin.description.tree import HUGE
 from rover_pin.errors import InputError, StudyError, nearest
 
 GRAVITIES: Mapping[str, float] = {
@@ -35,6 +36,8 @@ def gravity(raw: object) -> float:
         raise StudyError(f"gravity {error.what}", value=raw, cure=cure or "give m/s2") from None
     if value <= 0:
         raise StudyError("gravity must be more than zero", value=raw, cure="give m/s2 or earth, moon, mars")
+    if value > HUGE:
+        raise StudyError("gravity is too large to be meant", value=raw, cure="give m/s2")
     return value
 
 

@@ -2,28 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
 from pathlib import Path
 from typing import Any
 
-import yaml
-
+from rover_pin.description.reading import dotted
+from rover_pin.description.yaml_nodes import RefusedError, read_yaml
 from rover_pin.errors import StudyError
-
-
-class _Loader(yaml.SafeLoader):
-    """The safe loader, which takes no key twice."""
-
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
-        """A mapping; PyYAML itself would keep the last of two equal keys."""
-        seen: set[object] = set()
-        for key_node, _ in node.value:
-            key = self.construct_object(key_node, deep=True)
-            if key in seen:
-                line = key_node.start_mark.line + 1
-                raise StudyError(f"key stands twice (line {line})", element=str(key), cure="keep one")
-            seen.add(key)
-        return super().construct_mapping(node, deep)
 
 
 def parse_mapping(text: str, file: object = None) -> dict[str, Any]:
@@ -33,14 +17,12 @@ def parse_mapping(text: str, file: object = None) -> dict[str, Any]:
         StudyError: not YAML, a key twice, or no mapping.
     """
     try:
-        raw = yaml.load(text, Loader=_Loader)
-    except StudyError as error:
-        raise StudyError(error.what, file=file, element=error.element, cure=error.cure) from None
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        where = f" in line {mark.line + 1}" if mark else ""
-        problem = getattr(error, "problem", None) or "syntax"
-        raise StudyError(f"is not YAML{where}: {problem}", file=file) from None
+        raw, _ = read_yaml(text)
+    except RefusedError as error:
+        where = file if error.line is None else f"{file or 'the study'}:{error.line}"
+        raise StudyError(
+            error.what, file=where, element=dotted(error.path) or None, cure=error.cure
+        ) from None
     if not isinstance(raw, dict):
         kind = "nothing" if raw is None else type(raw).__name__
         raise StudyError(

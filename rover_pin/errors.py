@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import difflib
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Iterator
+
+_LONGEST = 400  # letters of a value or an element that a message shows
+_WORD = re.compile(rf"\w{{{_LONGEST},}}")  # no file's path is one such word
 
 
 class RoverPinError(Exception):
@@ -30,7 +35,7 @@ class RoverPinError(Exception):
     ) -> None:
         self.what = what
         self.file = None if file is None else str(file)
-        self.element = element
+        self.element = None if element is None else str(element)
         self.value = value
         self.cure = cure
         self.problem = problem
@@ -38,18 +43,36 @@ class RoverPinError(Exception):
 
     def __str__(self) -> str:
         """One line: `file: element: what (got value); cure`."""
-        head = ": ".join(part for part in (self.file, self.element) if part)
+        head = ": ".join(part for part in (self.file, _short(self.element)) if part)
         text = f"{head}: {self.what}" if head else self.what
         if self.value is not None:
-            text += f" (got {self.value!r})" if isinstance(self.value, str) else f" (got {self.value})"
+            shown = repr(self.value) if isinstance(self.value, str) else str(self.value)
+            text += f" (got {_short(shown)})"
         if self.cure:
             text += f"; {self.cure}"
-        return " ".join(text.split())
+        return _WORD.sub(lambda word: str(_short(word.group())), " ".join(text.split()))
 
     def __reduce__(self) -> tuple[object, ...]:
         """Pickle by fields, so that the error crosses process boundaries whole."""
         fields = (self.what, self.file, self.element, self.value, self.cure)
         return (_rebuild, (type(self), *fields))
+
+
+def _short(text: str | None) -> str | None:
+    """Its beginning and end, where it would fill a screen."""
+    return text if text is None or len(text) <= _LONGEST else f"{text[: _LONGEST - 60]} ... {text[-50:]}"
+
+
+@contextlib.contextmanager
+def naming(file: object) -> Iterator[None]:
+    """Let errors from within that name no file name this one."""
+    try:
+        yield
+    except RoverPinError as error:
+        if error.file is None and file is not None:
+            error.file = str(file)
+            error.args = (str(error),)
+        raise
 
 
 def _rebuild(
@@ -102,7 +125,7 @@ class SolverError(RoverPinError):
 def nearest(name: str, known: Iterable[str]) -> str:
     """Name the nearest known names, `did you mean 'a' or 'b'?`, else list what there is."""
     names = sorted(set(known))
-    close = difflib.get_close_matches(name, names, n=3, cutoff=0.5)
+    close = difflib.get_close_matches(name[:_LONGEST], names, n=3, cutoff=0.5)
     if close:
         return "did you mean " + " or ".join(repr(c) for c in close) + "?"
     if not names:

@@ -15,6 +15,8 @@ from rover_pin.description.couplings import gather_couplings
 from rover_pin.description.expand import expand, refuse_undeclared
 from rover_pin.description.geometry import read_geometry
 from rover_pin.description.gepetto import stands_in
+from rover_pin.description.guesses import guesses_waiting
+from rover_pin.description.limits import tell_zero_efforts
 from rover_pin.description.masses import Masses
 from rover_pin.description.mjcf import Converted, convert, is_mjcf
 from rover_pin.description.model import BASE_DOF, build_model, joint_names, set_limits
@@ -27,6 +29,7 @@ from rover_pin.description.recipe import Recipe
 from rover_pin.description.shapes import Placer
 from rover_pin.description.sidecar import Sidecar, formulas_of, load_sidecar, read_sidecar
 from rover_pin.description.stated import checked_postures, lockable_joints, resolve_springs
+from rover_pin.errors import naming
 from rover_pin.mechanism import Kinematics
 from rover_pin.rover import Rover
 
@@ -152,11 +155,18 @@ def assemble(recipe: Recipe) -> Rover:
     Raises:
         InputError: what is wrong in the texts.
     """
+    with naming(recipe.sidecar_path or recipe.source):
+        return _assembled(recipe)
+
+
+def _assembled(recipe: Recipe) -> Rover:
     file, text = recipe.sidecar_path, recipe.sidecar_text
-    sidecar = Sidecar() if text is None else read_sidecar(text, file, recipe.parameters)
+    sidecar = Sidecar() if text is None else read_sidecar(text, file or recipe.source, recipe.parameters)
     notes = Notes(recipe.notes)
     if file is None:
         notes.add("no sidecar: suspension, wheels and actuation are only what the URDF says")
+    elif waiting := guesses_waiting(text or ""):
+        notes.add(f"{waiting} guesses of rover-pin init are still commented out in {file.name}: not used")
     made = prepare(recipe, sidecar, notes)
     name = recipe.name or made.tree.name or recipe.source.stem
     model = build_model(made.urdf, name, made.tree.joints)
@@ -170,6 +180,7 @@ def assemble(recipe: Recipe) -> Rover:
     actuated = actuated_joints(
         made.tree, joints, sidecar.actuated, sidecar.passive, driven, notes, file, idle
     )
+    tell_zero_efforts(made.limits, actuated, notes)
     couplings = gather_couplings(made.mimics, sidecar.couplings, made.held, notes, file)
     meshes = Packages(recipe.source, recipe.packages)
     rover = Rover(

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import pinocchio as pin
 
-from rover_pin.description.recipe import Payload
+from rover_pin.description.recipe import Payload, seat
+from rover_pin.description.tree import HUGE
 from rover_pin.errors import InputError
 from rover_pin.mechanism.frames import find_frame
 
@@ -27,7 +28,7 @@ def put_on(model: pin.Model, root: str, payload: Sequence[Payload]) -> tuple[pin
     loaded = model.copy()
     checked = tuple(_checked(model, kg, place) for kg, place in payload)
     for mass, place in checked:
-        link, point = (place, (0.0, 0.0, 0.0)) if isinstance(place, str) else (root, place)
+        link, point = seat(place, root)
         frame = loaded.frames[loaded.getFrameId(link, pin.FrameType.BODY)]
         body = pin.Inertia(mass, np.array(point), np.zeros((3, 3)))
         loaded.appendBodyToJoint(frame.parentJoint, body, frame.placement)
@@ -45,7 +46,7 @@ def _checked(model: pin.Model, kg: float, place: Any) -> Payload:
     named = isinstance(place, str)
     try:
         numbers = np.array([kg] if named else [kg, *place], dtype=float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         numbers = np.array([np.nan])
     if numbers.shape != (1 if named else 4,) or not np.isfinite(numbers).all() or numbers[0] < 0:
         raise InputError(
@@ -53,6 +54,10 @@ def _checked(model: pin.Model, kg: float, place: Any) -> Payload:
             element="payload",
             value=f"{kg} at {place}",
             cure="give kg >= 0 and x, y, z in m, or a link's name",
+        )
+    if np.abs(numbers).max() > HUGE:
+        raise InputError(
+            "too large to be meant", element="payload", value=f"{kg} at {place}", cure="give kg and m"
         )
     if named:
         return float(kg), _link(model, place)

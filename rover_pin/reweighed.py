@@ -93,7 +93,7 @@ def reweigh(rover: Rover, masses: Masses) -> pin.Model:
         np.array([[each.mass for each in inertias]]),
         np.array([[each.mass * each.lever for each in inertias]]),
         bodies,
-        bodies[rover.root],
+        rover.root,
         rover.recipe.payload,
         changes,
     )

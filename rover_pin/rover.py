@@ -19,6 +19,7 @@ from rover_pin.description.geometry import BodyPoint, Geometry, Visual
 from rover_pin.description.masses import Masses
 from rover_pin.description.model import BASE_DOF
 from rover_pin.description.recipe import Payload, Recipe
+from rover_pin.errors import naming
 from rover_pin.info import describe, info
 from rover_pin.mechanism import Coupling, FrameSpring, Loop, OneSided, Spring, Track
 from rover_pin.mechanism.frames import find_frame
@@ -182,7 +183,8 @@ class Rover:
             MechanismError: a loop that cannot close.
         """
         tying = [loop for loop in self.loops if loop.type != "level"]  # that one holds the base
-        return measure_mobility(self.model, self.couplings, tying, self.neutral, len(BASE_DOF))
+        with naming(self.sidecar_path or self.source):
+            return measure_mobility(self.model, self.couplings, tying, self.neutral, len(BASE_DOF))
 
     def resolve_posture(self, posture: str | Mapping[str, float] | None = "home") -> dict[str, float]:
         """Joint values of a posture given by name or as a mapping; joints it does not name are left out.

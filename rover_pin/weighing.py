@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rover_pin.description.masses import ROBOT
-from rover_pin.description.recipe import Payload
+from rover_pin.description.recipe import Payload, seat
 from rover_pin.numerics import Array
 
 NONE = 1e-12
@@ -82,7 +82,7 @@ def weigh_anew(
     masses: Array,
     moments: Array,
     bodies: Mapping[str, Body],
-    root: Body,
+    root: str,
     payload: Sequence[Payload],
     changes: Changes,
 ) -> tuple[Array, Array, NDArray[np.bool_]]:
@@ -91,15 +91,16 @@ def weigh_anew(
     Args:
         masses: (n or 1, j) kg, payload included.
         moments: (n or 1, j, 3) kg m in the joints' frames.
-        bodies: the links that are changed, and those that carry payload.
-        root: the root link.
+        bodies: the root link, the links that are changed, and those that carry payload.
+        root: the root link's name.
         payload: what is on it already.
         changes: of n rovers.
     """
     count = max(len(masses), changes.count)
     mass = np.array(np.broadcast_to(masses, (count, masses.shape[1])))
     moment = np.array(np.broadcast_to(moments, (count, *moments.shape[1:])))
-    carried = [(kg, *_seat(place, bodies, root)) for kg, place in payload]
+    seats = [(kg, *seat(place, root)) for kg, place in payload]
+    carried = [(kg, bodies[link], np.array([point])) for kg, link, point in seats]
     for kg, body, place in carried:
         _put(mass, moment, body, -kg, place)
     own = {name: _own(mass, moment, bodies[name], name, changes) for name in changes.links}
@@ -112,14 +113,14 @@ def weigh_anew(
     mass *= factor[:, None]
     moment *= factor[:, None, None]
     for name, offset in changes.com.items():
-        body = root if name == ROBOT else bodies[name]
+        body = bodies[root if name == ROBOT else name]
         moved = _sum(mass) if name == ROBOT else own[name] * factor
         moment[:, body.joint] += moved[:, None] * _turned(body.rotation, offset)
     for kg, body, place in carried:
         _put(mass, moment, body, kg, place)
     for kgs, places in changes.payload:
         valid &= kgs >= 0.0
-        _put(mass, moment, root, kgs, places)
+        _put(mass, moment, bodies[root], kgs, places)
     valid &= _sum(mass) > 0.0
     empty = (mass <= NONE) & (np.abs(moment) > NONE).any(axis=2)
     return mass, moment, valid & ~empty.any(axis=1) & np.isfinite(moment).all(axis=(1, 2))
@@ -142,15 +143,6 @@ def _factor(mass: Array, changes: Changes) -> Array:
         total = _sum(mass)
         factor = changes.kg[ROBOT] / np.where(total > 0.0, total, np.nan)
     return factor
-
-
-def _seat(
-    place: tuple[float, float, float] | str, bodies: Mapping[str, Body], root: Body
-) -> tuple[Body, Array]:
-    """The body that carries a payload, and its place (1, 3) m in the link's frame."""
-    if isinstance(place, str):
-        return bodies[place], np.zeros((1, 3))
-    return root, np.array([place])
 
 
 def _put(mass: Array, moment: Array, body: Body, kg: float | Array, place: Array) -> None:

@@ -18,11 +18,13 @@ if TYPE_CHECKING:
     from rover_pin.viz.motion import save_motion_png as save_motion_png
     from rover_pin.viz.motion_plots import plot_run as plot_run
     from rover_pin.viz.page.compare import save_comparison_page as save_comparison_page
+    from rover_pin.viz.page.measured import worst_cases as worst_cases
+    from rover_pin.viz.page.result import result_page as result_page
+    from rover_pin.viz.page.result import save_result_page as save_result_page
     from rover_pin.viz.page.search import save_search_page as save_search_page
     from rover_pin.viz.page.sensitivity import save_sensitivity_page as save_sensitivity_page
     from rover_pin.viz.page.several import exact_cases as exact_cases
     from rover_pin.viz.page.study import save_study_page as save_study_page
-    from rover_pin.viz.page.study import worst_cases as worst_cases
     from rover_pin.viz.plots import plot_distributions as plot_distributions
     from rover_pin.viz.plots import plot_map as plot_map
     from rover_pin.viz.scene import draw as draw
@@ -47,11 +49,13 @@ _HOME = {
     "plot_slopes": "slopes",
     "plot_spreads": "comparison",
     "plot_traverse": "traverse",
+    "result_page": "page.result",
     "save_comparison_page": "page.compare",
     "save_html": "show",
     "save_motion_html": "motion",
     "save_motion_png": "motion",
     "save_png": "browser",
+    "save_result_page": "page.result",
     "save_search_page": "page.search",
     "save_sensitivity_page": "page.sensitivity",
     "save_slopes_html": "slopes",
@@ -60,7 +64,7 @@ _HOME = {
     "save_traverse_plot": "traverse",
     "serve": "serve",
     "show": "show",
-    "worst_cases": "page.study",
+    "worst_cases": "page.measured",
 }
 
 __all__ = sorted(_HOME)

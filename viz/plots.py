@@ -8,7 +8,7 @@ import numpy as np
 
 from rover_pin.errors import InputError, StudyError
 from rover_pin.numerics import Array
-from rover_pin.viz.page.study import main_measure, measures_of
+from rover_pin.viz.page.measured import main_measure, measures_of
 from rover_pin.viz.units import shown, title_of
 
 if TYPE_CHECKING:

@@ -29,7 +29,7 @@ class Served:
         port: of the server.
     """
 
-    def __init__(self, html: str, port: int = 0) -> None:
+    def __init__(self, html: str, port: int = 0, fragment: str = "") -> None:
         self._body = b""
         self._mark = ""
         self._put(html)
@@ -44,7 +44,7 @@ class Served:
             ) from error
         self._server.daemon_threads = True
         self.port = int(self._server.server_address[1])
-        self.url = f"http://{LOOPBACK}:{self.port}/"
+        self.url = f"http://{LOOPBACK}:{self.port}/" + (f"#{fragment}" if fragment else "")
         self._thread = threading.Thread(target=self._server.serve_forever, args=(0.1,), daemon=True)
         self._thread.start()
 
@@ -113,13 +113,13 @@ def _handler(served: Served) -> type[BaseHTTPRequestHandler]:
     return Handler
 
 
-def serve(html: str, *, port: int = 0, open_browser: bool = True) -> Served:
-    """Serve an HTML text on 127.0.0.1, and open the browser on it.
+def serve(html: str, *, port: int = 0, fragment: str = "", open_browser: bool = True) -> Served:
+    """Serve an HTML text on 127.0.0.1, and open the browser on it, at what follows `#` in its address.
 
     Raises:
         InputError: the port is taken.
     """
-    served = Served(html, port)
+    served = Served(html, port, fragment)
     if open_browser:
         webbrowser.open(served.url)
     return served

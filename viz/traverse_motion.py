@@ -30,7 +30,8 @@ TURNING = 0.5
 def traverse_run(dataset: xr.Dataset, rover: Rover, terrain: Terrain) -> Run:
     """The places up to the first without a stance, as a motion at `PACE`, wheels turning.
 
-    Indices are friction needed over given, and share of the efforts: 1 is the limit.
+    Indices are friction needed over given, where that is one for all contacts, and share of the efforts: 1 is
+    the limit.
 
     Args:
         dataset: of `rover_pin.analysis.traverse`.
@@ -53,10 +54,11 @@ def traverse_run(dataset: xr.Dataset, rover: Rover, terrain: Terrain) -> Run:
     way, yaw = (np.asarray(data[name].values, dtype=np.float64) for name in ("way_m", "yaw_rad"))
     time = np.concatenate([[0.0], np.cumsum(np.diff(way) / PACE + np.abs(np.diff(yaw)) / TURNING)])
     q = _configurations(data, rover)
-    needed, margin = (np.asarray(data[f"friction_{name}"].values) for name in ("needed", "margin"))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        grip = np.where(np.isfinite(needed + margin), needed / (needed + margin), np.nan)
-    indices = {"friction needed of given": grip.reshape(-1, 1)}
+    indices: dict[str, Array] = {}
+    if (given := _given(data, rover)) is not None:
+        needed = np.asarray(data["friction_needed"].values, dtype=np.float64)
+        grip = np.where(np.isfinite(needed), needed / given, np.nan)
+        indices["friction needed of given"] = grip.reshape(-1, 1)
     if np.isfinite(data["effort_share"].values).any():
         share = np.asarray(data["effort_share"].values, dtype=np.float64)
         indices["torque needed of effort"] = np.where(np.isfinite(share), share, np.nan).reshape(-1, 1)
@@ -73,9 +75,17 @@ def traverse_run(dataset: xr.Dataset, rover: Rover, terrain: Terrain) -> Run:
         indices,
         {},
         loads,
-        status="passed" if passed else "stops",
+        status="done" if passed else "stops",
         reason="" if passed else f"{dataset.attrs['stop_limit']}: {dataset.attrs['stop_why']}",
     )
+
+
+def _given(data: xr.Dataset, rover: Rover) -> float | None:
+    """The friction of all contacts, or None where it differs."""
+    if data.attrs["friction"] != "as declared":
+        return float(data.attrs["friction"])
+    declared = {shape.friction for shape in rover.shapes}
+    return declared.pop() if len(declared) == 1 else None
 
 
 def _configurations(data: xr.Dataset, rover: Rover) -> Array:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import datetime
-import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -14,10 +12,9 @@ import xarray as xr
 from rover_pin.analysis.measures import title
 from rover_pin.analysis.mobility.outcome import OUTCOMES
 from rover_pin.analysis.mobility.survey import Survey
-from rover_pin.analysis.provenance import git_state, versions
+from rover_pin.analysis.provenance import made_by, stands_how
 from rover_pin.analysis.rows import Columns
-from rover_pin.analysis.store import atomically
-from rover_pin.payload import told
+from rover_pin.analysis.store import atomically, save_netcdf
 from rover_pin.stability.registry import MEASURES
 
 CELL = ("y", "x")
@@ -58,28 +55,19 @@ def as_dataset(survey: Survey, parts: Sequence[Columns]) -> xr.Dataset:
 
 def _attributes(survey: Survey, to_plain_path: int) -> dict[str, Any]:
     """What was asked, and where the numbers come from."""
-    commit, state = git_state(Path(__file__).resolve().parent)
     rover, terrain = survey.rover, survey.terrain
     return {
         "title": f"{rover.name} on {terrain.label}",
-        "robot": rover.name,
-        "robot_file": str(rover.source),
-        "parameters": ", ".join(f"{name}={value!r}" for name, value in rover.parameters.items()),
-        "posture": "home" if survey.posture is None else str(survey.posture),
+        **stands_how(rover, survey.posture, survey.gravity),
         "terrain": terrain.label,
         "terrain_digest": terrain.digest,
         "interpolation": terrain.interpolation,
         "spacing": float(terrain.spacing),
-        "gravity": survey.gravity,
-        "payload": told(rover.recipe.payload),
         "measure": survey.measure,
         "headings": len(survey.yaw),
         "cases": len(survey.y) * survey.cases_a_row,
         "to_plain_path": to_plain_path,
-        "rover_pin_git_commit": commit,
-        "rover_pin_git_state": state,
-        **{f"{name}_version": text for name, text in versions().items()},
-        "created": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
+        **made_by(),
     }
 
 
@@ -94,12 +82,7 @@ def write_netcdf(data: xr.Dataset, path: Path) -> None:
         for name, values in data.variables.items()
         if values.dtype.kind in "fi"
     }
-    draft = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
-        data.to_netcdf(draft, engine="h5netcdf", encoding=encoding)
-        draft.replace(path)
-    finally:
-        draft.unlink(missing_ok=True)
+    save_netcdf(data, path, encoding)
 
 
 def write_tiff(data: xr.Dataset, path: Path) -> None:

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import datetime
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
 
-from rover_pin.analysis.provenance import git_state, versions
-from rover_pin.payload import told as payload_told
+from rover_pin.analysis.provenance import made_by, stands_how
 
 if TYPE_CHECKING:
     from rover_pin.analysis.slopes.tilt_table import Limits
@@ -24,7 +21,6 @@ def as_dataset(
     rover: Rover, found: Sequence[Limits], friction: float | None, how: Mapping[str, Any]
 ) -> xr.Dataset:
     """The Dataset from the limits of headings evenly over the circle."""
-    commit, state = git_state(Path(__file__).resolve().parent)
 
     def told(name: str, text: str, unit: str = "") -> tuple[str, Any, dict[str, str]]:
         values: Any = [getattr(each, name) for each in found]
@@ -62,18 +58,8 @@ def as_dataset(
         },
         attrs={
             "title": f"{rover.name} on slopes",
-            "robot": rover.name,
-            "robot_file": str(rover.source),
-            "parameters": ", ".join(f"{name}={value!r}" for name, value in rover.parameters.items()),
-            "posture": "home" if how["posture"] is None else str(how["posture"]),
-            "joints": ", ".join(f"{name}={value!r}" for name, value in (how["joints"] or {}).items()),
-            "locks": ", ".join(how["locks"]),
-            "gravity": how["gravity"],
-            "payload": payload_told(rover.recipe.payload),
+            **stands_how(rover, how["posture"], how["gravity"], how["joints"], how["locks"]),
             "friction": "as declared" if friction is None else float(friction),
-            "rover_pin_git_commit": commit,
-            "rover_pin_git_state": state,
-            **{f"{name}_version": text for name, text in versions().items()},
-            "created": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
+            **made_by(),
         },
     )

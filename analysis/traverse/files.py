@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import csv
 import io
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from rover_pin.analysis.store import atomically, save_netcdf
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -19,12 +20,7 @@ def write_netcdf(data: xr.Dataset, path: Path) -> None:
         OSError: it cannot be written.
     """
     encoding = {str(n): {"_FillValue": None} for n, v in data.variables.items() if v.dtype.kind in "fi"}
-    draft = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
-        data.to_netcdf(draft, engine="h5netcdf", encoding=encoding)
-        draft.replace(path)
-    finally:
-        draft.unlink(missing_ok=True)
+    save_netcdf(data, path, encoding)
 
 
 def write_csv(data: xr.Dataset, path: Path) -> None:
@@ -33,8 +29,6 @@ def write_csv(data: xr.Dataset, path: Path) -> None:
     Raises:
         OSError: it cannot be written; nothing is left behind.
     """
-    from rover_pin.analysis.store import atomically
-
     columns = {str(n): v.values.tolist() for n, v in data.data_vars.items() if v.dims == ("step",)}
     for name, dim in (("load_n", "wheel"), ("torque_nm", "wheel"), ("joint_rad", "joint")):
         for each in data[dim].values.tolist():

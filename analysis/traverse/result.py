@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import datetime
 import math
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pinocchio as pin
 import xarray as xr
 
-from rover_pin.analysis.provenance import git_state, versions
+from rover_pin.analysis.provenance import made_by, stands_how
 from rover_pin.analysis.traverse.leap import centres
 from rover_pin.analysis.traverse.path import total
-from rover_pin.payload import told as payload_told
 from rover_pin.stability.measure import Standing
 
 if TYPE_CHECKING:
@@ -178,18 +175,10 @@ def _attributes(
     measures: Sequence[Measure],
     how: Mapping[str, Any],
 ) -> dict[str, Any]:
-    commit, state = git_state(Path(__file__).resolve().parent)
     stop = next((one for one in steps if not one.passes), None)
     return {
         "title": f"{rover.name} along a path on {terrain.label}",
-        "robot": rover.name,
-        "robot_file": str(rover.source),
-        "parameters": ", ".join(f"{name}={value!r}" for name, value in rover.parameters.items()),
-        "posture": "home" if how["posture"] is None else str(how["posture"]),
-        "joints": ", ".join(f"{name}={value!r}" for name, value in (how["joints"] or {}).items()),
-        "locks": ", ".join(how["locks"]),
-        "gravity": float(how["gravity"]),
-        "payload": payload_told(rover.recipe.payload),
+        **stands_how(rover, how["posture"], how["gravity"], how["joints"], how["locks"]),
         "friction": "as declared" if how["friction"] is None else float(how["friction"]),
         "terrain": terrain.label,
         "terrain_digest": terrain.digest,
@@ -203,8 +192,5 @@ def _attributes(
         "stop_limit": "" if stop is None else stop.limit,
         "stop_why": "" if stop is None else stop.why,
         "stop_at": "" if stop is None else stop.limiting,
-        "rover_pin_git_commit": commit,
-        "rover_pin_git_state": state,
-        **{f"{name}_version": text for name, text in versions().items()},
-        "created": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
+        **made_by(),
     }

@@ -57,7 +57,7 @@ class Step:
 
     @property
     def needed(self) -> float:
-        """Least friction [-]; inf where none holds it, NaN where it does not stand."""
+        """Least friction of one for all [-]; inf where none holds it, NaN where it does not stand."""
         return math.nan if self.friction is None else self.friction.details.get("least", math.inf)
 
     @property
@@ -77,13 +77,7 @@ def ask(stood: Stood, friction: float | None) -> Step:
     if not grip.answered and smallest_friction(standing.problem).status is ForceStatus.NO_CONVERGENCE:
         return Step(stood, grip, limit=str(Status.NO_CONVERGENCE), why=f"friction: {grip.note}")
     if grip.value < -ROUNDING:
-        least = grip.details.get("least", math.inf)
-        given = least + grip.value
-        why = (
-            f"needs friction {_above(least, given)} where there is {given:.4g}"
-            if grip.answered
-            else grip.note
-        )
+        why = _short(grip, standing.problem) if grip.answered else grip.note
         return Step(stood, grip, limit="friction", why=why, limiting=grip.limiting or "")
     torque = MEASURES["torque"].evaluate(standing)
     if not torque.edges:
@@ -97,9 +91,16 @@ def ask(stood: Stood, friction: float | None) -> Step:
 
 def _above(value: float, limit: float) -> str:
     """A figure with as many digits as show that it is above the limit, four at least."""
-    return next(
-        (text for digits in range(4, 10) if float(text := f"{value:.{digits}g}") > limit), f"{value:.9g}"
-    )
+    texts = (f"{value:.{digits}g}" for digits in range(4, 10))
+    return next((text for text in texts if float(text) > limit), f"{value:.10g}")
+
+
+def _short(grip: Margin, problem: FrictionProblem) -> str:
+    """That friction does not hold the rover, in words."""
+    if np.ptp(problem.friction) > 0.0:
+        return f"every contact lacks {-grip.value:.4g} of friction"
+    given = float(problem.friction[0])
+    return f"needs friction {_above(grip.details['least'], given)} where there is {given:.4g}"
 
 
 def effort_share(rover: Rover, problem: FrictionProblem) -> tuple[float, str]:

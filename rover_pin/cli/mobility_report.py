@@ -56,7 +56,7 @@ def print_mobility(data: xr.Dataset, seconds: float) -> None:
     )
     told = (f"{word} {count} ({100 * count / cases:.1f} %)" for word, count in _outcomes(data).items())
     line("  ".join(told))
-    line(f"sent to the plain path: {100 * data.attrs['to_plain_path'] / cases:.2g} %")
+    line(f"sent to the plain path: {100 * data.attrs['to_plain_path'] / cases:.3g} %")
     if not bool((data["settled_share"] > 0).any()):
         return
     line(f"{data.attrs['measure']} [{value['units']}], {value['better']} is better, over the places")

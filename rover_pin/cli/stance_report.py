@@ -57,6 +57,7 @@ def stance_object(stance: Stance, margins: Mapping[str, Margin]) -> dict[str, An
             }
             for name, margin in margins.items()
         },
+        "unanswered": unanswered(stance, margins),
         "residuals": stance.residuals,
         "gravity": stance.gravity,
         "payload": payload_told(stance.rover.recipe.payload),
@@ -64,6 +65,16 @@ def stance_object(stance: Stance, margins: Mapping[str, Margin]) -> dict[str, An
         "undetermined": stance.undetermined,
         "notes": stance.rover.notes,
     }
+
+
+def unanswered(stance: Stance, margins: Mapping[str, Margin]) -> dict[str, str]:
+    """Measures of a settled stance without an answer, and why: the rover cannot have them, or not here."""
+    from rover_pin.stability.report import inapplicable
+
+    if not stance.settled:
+        return {}
+    closed = {name: margin.note for name, margin in margins.items() if margin.note and not margin.edges}
+    return {**inapplicable(stance.rover), **closed}
 
 
 def _pulling(stance: Stance) -> dict[str, object]:
@@ -94,6 +105,8 @@ def print_stance(stance: Stance, margins: Mapping[str, Margin]) -> None:
     _print_wheels(stance)
     _print_inside(stance)
     _print_measures(margins)
+    for name, why in unanswered(stance, margins).items():
+        line(f"{name}: {why}")
     line("residuals: " + "  ".join(f"{name} {value:.1e}" for name, value in stance.residuals.items()))
     if stance.redundant:
         line(

@@ -15,9 +15,6 @@ if TYPE_CHECKING:
 
     from rover_pin.analysis.study import Study
 
-DRAWN = 50
-"""Designs at most that a page draws each in its own shape."""
-
 
 def study(
     spec: Annotated[
@@ -46,6 +43,7 @@ def study(
     from rover_pin.cli.progress import progress_bar
     from rover_pin.cli.sensitivity_report import print_slopes, slopes_object
     from rover_pin.cli.study_report import print_study, study_object
+    from rover_pin.viz import save_result_page
 
     path = out or Path(f"{spec.stem if spec else 'study'}.nc")
     check_outputs(path, html)
@@ -71,9 +69,11 @@ def study(
         return INTERRUPTED
     seconds = time.perf_counter() - started
     ended = statuses(data)
-    slopes, indices, chances = _slopes(asked, data), _indices(asked, data), probabilities(data)
+    slopes, chances = _slopes(asked, data), probabilities(data)
+    indices, refused = _indices(asked, data)
     if html is not None:
-        _save_page(asked, data, slopes, html)
+        known = refused if indices is None else indices
+        save_result_page(data, html, study=asked, slopes=slopes, chances=chances, indices=known)
     if json:
         print_json(
             {
@@ -100,30 +100,16 @@ def _slopes(asked: Study, data: xr.Dataset) -> xr.Dataset | None:
     return sensitivity(data) if wanted else None
 
 
-def _indices(asked: Study, data: xr.Dataset) -> xr.Dataset | None:
-    """The Sobol indices, where the study drew a sample for them and enough of it has answers."""
+def _indices(asked: Study, data: xr.Dataset) -> tuple[xr.Dataset | None, str | None]:
+    """The Sobol indices, where the study drew a sample for them, or why there are none."""
     from rover_pin.analysis import sobol_indices
     from rover_pin.cli.output import aside
     from rover_pin.errors import StudyError
 
     if asked.spec.cases.sampler != "saltelli":
-        return None
+        return None, None
     try:
-        return sobol_indices(data)
+        return sobol_indices(data), None
     except StudyError as error:
         aside(f"no Sobol indices: {error}")
-        return None
-
-
-def _save_page(asked: Study, data: xr.Dataset, slopes: xr.Dataset | None, html: Path) -> None:
-    """The study's page; its worst cases, or each design of a small sweep, settled anew for their contacts."""
-    from rover_pin import viz
-
-    if slopes is not None:
-        viz.save_sensitivity_page(slopes, html)
-        return
-    each = len(asked) <= DRAWN and asked.plan.job.cases.questions.parameters
-    ready = asked.plan
-    cases = range(len(asked)) if each else viz.exact_cases(data, ready.rover, ready.job.terrain)
-    stances = {case: asked.stance(case) for case in cases}
-    viz.save_study_page(data, html, rover=ready.rover, terrain=ready.job.terrain, stances=stances)
+        return None, str(error)

@@ -1,4 +1,4 @@
-"""`rover-pin view`: a robot, or a case of a study, in the browser of this machine."""
+"""`rover-pin view`: a robot, a study's page or one case of it, in the browser of this machine."""
 
 from __future__ import annotations
 
@@ -21,11 +21,13 @@ from rover_pin.errors import InputError
 
 if TYPE_CHECKING:
     from rover_pin.statics.stance import Stance
+    from rover_pin.viz.serve import Served
 
 
 def view(
     what: Annotated[str, typer.Argument(help="A robot, or a study's result.", metavar="ROBOT|OUT.nc")],
     case: Annotated[int | None, typer.Option(help="Of the result; silent: the worst.", metavar="N")] = None,
+    stance: Annotated[bool, typer.Option("--stance", help="This case alone, not the study's page.")] = False,
     sidecar: Sidecar = None,
     package: Packages = None,
     skip_missing_includes: SkipIncludes = False,
@@ -34,7 +36,7 @@ def view(
     payload: Payload = None,
     browser: Annotated[bool, typer.Option(help="Open the browser.")] = True,
 ) -> None:
-    """Show a robot on flat ground, or a study's case, until Ctrl-C; only this machine can look."""
+    """Show a robot on flat ground, or a study's page, until Ctrl-C; only this machine can look."""
     from rover_pin import viz
     from rover_pin.cli.output import line
 
@@ -43,26 +45,41 @@ def view(
             if given:
                 cure = "run the study with it: rover-pin study"
                 raise InputError("a result has its own", element=option, value=what, cure=cure)
-        stance = _case(Path(what), case)
-    elif case is not None:
-        raise InputError(
-            "cases belong to a study's result", element="--case", value=case, cure="name an OUT.nc"
-        )
+        alone = _case(Path(what), case) if stance else None
+    elif case is not None or stance:
+        element, value = ("--case", case) if case is not None else ("--stance", what)
+        cure = "name an OUT.nc"
+        raise InputError("cases belong to a study's result", element=element, value=value, cure=cure)
     else:
         from rover_pin import Terrain, settle
         from rover_pin.analysis.words import gravity as parse_gravity
 
         pull = parse_gravity(gravity or "earth")
         rover = loaded(load_rover(what, sidecar, package, skip_missing_includes, param), payload)
-        stance = settle(rover, Terrain.flat(), gravity=pull)
-    served = viz.show(stance, open_browser=browser)
-    line(f"{stance!r}\n{served.url} (Ctrl-C ends it)")
+        alone = settle(rover, Terrain.flat(), gravity=pull)
+    if alone is None:
+        title, served = _page(Path(what), case, browser)
+    else:
+        title, served = repr(alone), viz.show(alone, open_browser=browser)
+    line(f"{title}\n{served.url} (Ctrl-C ends it)")
     try:
         served.wait()
     except KeyboardInterrupt:
         pass
     finally:
         served.close()
+
+
+def _page(path: Path, case: int | None, browser: bool) -> tuple[str, Served]:
+    """A result's page, served; at a case where one is named."""
+    from rover_pin import viz
+    from rover_pin.analysis.dataset import read
+
+    data = read(path)
+    text = viz.result_page(data, cases=() if case is None else (case,))
+    where = "" if case is None else f"case={case}"
+    title = f"{data.attrs['title']}: {data.sizes['case']} cases"
+    return title, viz.serve(text, fragment=where, open_browser=browser)
 
 
 def _case(path: Path, case: int | None) -> Stance:

@@ -203,9 +203,10 @@ class Batch:
 
     def _weighed(self, machine: Machine, changes: Changes) -> tuple[Machine, NDArray[np.bool_]]:
         """The machine with other masses, and which groups can have them."""
-        bodies, root = self.rover.bodies, self.rover.bodies[self.rover.root]
-        payload = self.rover.recipe.payload
-        kg, moments, valid = weigh_anew(machine.masses, machine.moments, bodies, root, payload, changes)
+        rover = self.rover
+        kg, moments, valid = weigh_anew(
+            machine.masses, machine.moments, rover.bodies, rover.root, rover.recipe.payload, changes
+        )
         kg[~valid], moments[~valid] = self._machine.masses, self._machine.moments
         return machine._replace(masses=kg, moments=moments), valid
 

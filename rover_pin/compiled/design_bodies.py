@@ -12,7 +12,7 @@ from rover_pin.compiled.design_rows import Sheet
 from rover_pin.compiled.design_tree import Walked
 from rover_pin.compiled.machine import Integers, integers, outline_of
 from rover_pin.description.geometry import corners_around
-from rover_pin.description.recipe import Payload
+from rover_pin.description.recipe import Payload, seat
 from rover_pin.numerics import Array
 
 
@@ -33,17 +33,17 @@ def weigh(
     moments = np.zeros((sheet.values.count, joints, 3))
     total = np.zeros(1)
     for name, link in plan.links.items():
-        mass, seat = sheet.row(link.mass), walked.seats[name]
+        mass, under = sheet.row(link.mass), walked.seats[name]
         sheet.require(mass[:, 0] >= 0.0)
         total = total + mass[:, 0]
-        masses[:, seat.joint] += mass[:, 0]
-        moments[:, seat.joint] += mass * moved(seat.place, sheet.row(link.center))
+        masses[:, under.joint] += mass[:, 0]
+        moments[:, under.joint] += mass * moved(under.place, sheet.row(link.center))
     sheet.require(total > 0.0)
     for kg, place in payload:
-        carrier, point = (place, (0.0, 0.0, 0.0)) if isinstance(place, str) else (root, place)
-        seat = walked.seats[carrier]
-        masses[:, seat.joint] += kg
-        moments[:, seat.joint] += kg * moved(seat.place, np.array([point]))
+        carrier, point = seat(place, root)
+        under = walked.seats[carrier]
+        masses[:, under.joint] += kg
+        moments[:, under.joint] += kg * moved(under.place, np.array([point]))
     return masses, moments
 
 

@@ -6,9 +6,10 @@ Pinocchio accepts or silently drops most of what is wrong here.
 from __future__ import annotations
 
 import math
+import re
 
 from rover_pin.description.model import BASE_DOF
-from rover_pin.description.tree import JOINT_TYPES, MOVING, Element, Tree, child_of, parent_of
+from rover_pin.description.tree import HUGE, JOINT_TYPES, MOVING, Element, Tree, child_of, parent_of
 from rover_pin.errors import nearest
 
 COUNTS = {
@@ -31,6 +32,16 @@ COUNTS = {
 } | {("inertia", key): 1 for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
 """How many numbers stand in an attribute, by element and attribute."""
 
+NEEDED = {
+    "mass": ("value",),
+    "box": ("size",),
+    "cylinder": ("radius", "length"),
+    "sphere": ("radius",),
+    "mesh": ("filename",),
+}
+"""Attributes without which an element says nothing."""
+
+_PLAIN = re.compile(r"[-+.0-9eE]+|[-+]?(inf|infinity|nan)", re.IGNORECASE | re.ASCII)
 _RESERVED = {*BASE_DOF, "universe"}
 ROUNDING = 1e-12  # kg m2 below zero that a mesh program may write
 _MAY_BE_INFINITE = {"limit"}
@@ -47,7 +58,7 @@ def check(tree: Tree) -> None:
     _types(tree)
     _ends(tree)
     _one_tree(tree)
-    for element in (*tree.links.values(), *tree.joints.values()):
+    for element in (*tree.links.values(), *tree.joints.values(), *tree.robot.findall("material")):
         _numbers(tree, element)
     for name, joint in tree.joints.items():
         _axis(tree, name, joint)
@@ -146,17 +157,25 @@ def _one_tree(tree: Tree) -> None:
 
 def _numbers(tree: Tree, top: Element) -> None:
     for element in top.iter():
+        for key in NEEDED.get(element.tag, ()):
+            if element.get(key) is None:
+                raise tree.error(f"<{element.tag}> has no {key}", label(top), cure="state it")
         for key, text in element.attrib.items():
             count = COUNTS.get((element.tag, key))
             if count is None:
                 continue
             where = f"<{element.tag} {key}>"
+            parts = text.split()
             try:
-                values = [float(part) for part in text.split()]
+                values = [float(part) for part in parts]
             except ValueError:
                 raise tree.error(f"{where} is not a number", label(top), text, "give plain numbers") from None
+            if not all(map(_PLAIN.fullmatch, parts)):  # 1_000 or other digits, which only Python reads
+                raise tree.error(f"{where} is not a plain number", label(top), text, "write 0 to 9 only")
             if any(math.isnan(v) or (math.isinf(v) and element.tag not in _MAY_BE_INFINITE) for v in values):
                 raise tree.error(f"{where} is not finite", label(top), text, "give finite numbers")
+            if element.tag not in _MAY_BE_INFINITE and any(abs(v) > HUGE for v in values):
+                raise tree.error(f"{where} is too large to be meant", label(top), text, "give SI units")
             if len(values) != count:
                 raise tree.error(
                     f"{where} needs {count} number{'s' * (count > 1)}", label(top), text, "mend it"

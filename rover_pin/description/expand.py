@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import contextlib
 import io
 import re
@@ -137,6 +138,23 @@ def _cure(message: str, packages: Packages) -> str:
     return "mend the expression in the xacro file"
 
 
+def _towers(expression: str) -> bool:
+    """Whether an exponent holds a power, as 9**9**9, whose digits fill the memory."""
+    try:
+        tree = ast.parse(expression.strip(), mode="eval")
+    except (SyntaxError, ValueError, RecursionError):
+        return False  # xacro says what is wrong with it
+    return any(_is_power(inner) for power in filter(_is_power, ast.walk(tree)) for inner in _exponent(power))
+
+
+def _is_power(node: ast.AST) -> bool:
+    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow)
+
+
+def _exponent(power: Any) -> Iterator[ast.AST]:
+    return ast.walk(power.right)
+
+
 @contextlib.contextmanager
 def _around_xacro(packages: Packages, notes: Notes, skip: bool) -> Iterator[None]:
     """Xacro with our package finder and, if wanted, missing includes left out.
@@ -161,12 +179,19 @@ def _around_xacro(packages: Packages, notes: Notes, skip: bool) -> Iterator[None
             notes.add(f"include {element.getAttribute('filename')} is missing: skipped")
             xacro.replace_node(element, by=None)
 
+    def evaluate(expression: str, *symbols: Any) -> Any:
+        if _towers(expression):
+            raise ValueError("a power in an exponent may not end: put it into a property of its own")
+        return usual_eval(expression, *symbols)
+
     usual_find, usual_include = substitution_args._eval_find, xacro.process_include
-    substitution_args._eval_find, xacro.process_include = find, include
+    usual_eval = xacro.safe_eval
+    substitution_args._eval_find, xacro.process_include, xacro.safe_eval = find, include, evaluate
     try:
         yield
     finally:
         substitution_args._eval_find, xacro.process_include = usual_find, usual_include
+        xacro.safe_eval = usual_eval
 
 
 def refuse_undeclared(

@@ -23,7 +23,7 @@ Number = float | Traced
 WHOLE = re.compile(r"\s*\$\{([^{}]+)\}\s*")
 """A text that is one formula."""
 
-PLAIN = ("parameters", "schema")
+PLAIN = ("parameters", "schema", "embedded")
 """Keys of the sidecar that hold no formulas."""
 
 SYNTAX = "write numbers, parameters, functions, + - * / // % ** and ( )"

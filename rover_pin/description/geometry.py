@@ -169,9 +169,15 @@ def _structure(tree: Tree, notes: Notes) -> Any:
     for element in list(robot):
         if element.tag not in {"link", "joint", "material"}:
             robot.remove(element)
-    return yourdfpy.URDF.load(
-        io.BytesIO(etree.tostring(robot)), build_scene_graph=False, load_meshes=False
-    ).robot
+    robot.set("name", tree.name or "robot")
+    try:
+        return yourdfpy.URDF.load(
+            io.BytesIO(etree.tostring(robot)), build_scene_graph=False, load_meshes=False
+        ).robot
+    except Exception as problem:  # it raises whatever an odd shape or colour makes it raise
+        raise tree.error(
+            f"shapes or colours cannot be read: {problem!r}", "robot", cure="mend them"
+        ) from problem
 
 
 def _shapes(links: Iterable[Any], key: str, model: pin.Model, colours: dict[str, Any]) -> Iterator[LinkShape]:

@@ -1,7 +1,8 @@
 """The `robot.yaml` of Gepetto's example-parallel-robots, in the words of our sidecar.
 
 `closed_loop: [[a, b]]` with `type: [6d | 3d]` are welds and balls; `name_mot` are the driven joints;
-`joint_name` with `joint_type: [SPHERICAL | CARDAN | FIXED]` are joints of another type than the URDF says.
+`joint_name` with `joint_type: [SPHERICAL | CARDAN | UJOINT_XY | FIXED]` are joints of another type than the
+URDF says; a CARDAN is a UJOINT_XY, and there is one for every two letters.
 The keys are those of https://github.com/Gepetto/example-parallel-robots (`loader_tools.py`).
 """
 
@@ -17,7 +18,9 @@ from rover_pin.errors import SidecarError, nearest
 KEYS = ("closed_loop", "type", "name_mot", "joint_name", "joint_type")
 
 _LOOPS = {"6d": "weld", "3d": "ball"}
-_JOINTS = {"spherical": "ball", "cardan": "cardan", "fixed": "fixed"}
+_JOINTS = {"spherical": "ball", "cardan": "cardan", "fixed": "fixed"} | {
+    f"ujoint_{letters}": f"cardan_{letters}" for letters in ("xy", "xz", "yx", "yz", "zx", "zy")
+}
 
 
 def is_gepetto(data: Mapping[str, Any]) -> bool:
@@ -49,7 +52,7 @@ def translated(data: Mapping[str, Any], file: object) -> dict[str, Any]:
             raise SidecarError(
                 f"says with `{said}` what is driven twice", file=file, element="name_mot", cure="keep one"
             )
-        own["actuated"] = data["name_mot"]
+        own["actuated"] = _names(data, "name_mot", file)
     retyped = _retyped(data, file)
     if retyped:
         own["retype"] = {**retyped, **(own.get("retype") or {})}
@@ -59,7 +62,7 @@ def translated(data: Mapping[str, Any], file: object) -> dict[str, Any]:
 def _loops(data: Mapping[str, Any], file: object) -> list[dict[str, Any]]:
     pairs = _list(data, "closed_loop", file)
     for i, pair in enumerate(pairs):
-        if not isinstance(pair, list) or len(pair) != 2:
+        if not isinstance(pair, list) or len(pair) != 2 or not all(isinstance(e, str) for e in pair):
             raise SidecarError(
                 "is not a pair of frames",
                 file=file,
@@ -85,7 +88,7 @@ def _loops(data: Mapping[str, Any], file: object) -> list[dict[str, Any]]:
 
 
 def _retyped(data: Mapping[str, Any], file: object) -> dict[str, str]:
-    names, types = _list(data, "joint_name", file), _list(data, "joint_type", file)
+    names, types = _names(data, "joint_name", file), _list(data, "joint_type", file)
     if len(names) != len(types):
         raise SidecarError(
             f"has {len(types)} types for {len(names)} joints",
@@ -102,7 +105,17 @@ def _retyped(data: Mapping[str, Any], file: object) -> dict[str, str]:
                 value=str(kind),
                 cure=nearest(str(kind), [word.upper() for word in _JOINTS]),
             )
-    return {str(name): _JOINTS[str(kind).lower()] for name, kind in zip(names, types, strict=True)}
+    return {name: _JOINTS[str(kind).lower()] for name, kind in zip(names, types, strict=True)}
+
+
+def _names(data: Mapping[str, Any], key: str, file: object) -> list[str]:
+    names = _list(data, key, file)
+    for i, name in enumerate(names):
+        if not isinstance(name, str) or not name:
+            raise SidecarError(
+                "is no joint's name", file=file, element=f"{key}[{i}]", value=str(name), cure="give a name"
+            )
+    return names
 
 
 def _list(data: Mapping[str, Any], key: str, file: object) -> list[Any]:

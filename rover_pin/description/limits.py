@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from rover_pin.description.notes import Notes
@@ -23,6 +24,10 @@ _WIDE = (
     "joint {name}: its limits are so wide that they count as none",
     "limits of {n} joints are so wide that they count as none ({names})",
 )
+_NO_EFFORT = (
+    "joint {name}: driven with effort 0, taken as a motor without a stated limit",
+    "{n} joints driven with effort 0, taken as motors without a stated limit ({names})",
+)
 
 
 @dataclass(frozen=True)
@@ -33,12 +38,14 @@ class Limits:
         lower, upper: rad or m.
         effort: N m or N; a stated 0 is a placeholder and counts as none.
         velocity: rad/s or m/s; likewise.
+        no_effort: whether it was such a 0.
     """
 
     lower: float = -math.inf
     upper: float = math.inf
     effort: float = math.inf
     velocity: float = math.inf
+    no_effort: bool = False
 
     @property
     def locks(self) -> bool:
@@ -62,21 +69,26 @@ def read_limits(tree: Tree, name: str, joint: Element, notes: Notes) -> Limits:
             notes.each(name, *_UNBOUNDED)
         return Limits()
     effort, velocity = (_strength(tree, name, element, key) for key in ("effort", "velocity"))
+    none = float(element.get("effort", "inf")) == 0.0
     if continuous:
         if element.get("lower") is not None or element.get("upper") is not None:
             notes.each(name, *_IGNORED)
-        return Limits(effort=effort, velocity=velocity)
+        return Limits(effort=effort, velocity=velocity, no_effort=none)
     if element.get("lower") is None and element.get("upper") is None:
         notes.each(name, *_UNBOUNDED)
-        return Limits(effort=effort, velocity=velocity)
+        return Limits(effort=effort, velocity=velocity, no_effort=none)
     lower, upper = float(element.get("lower", 0.0)), float(element.get("upper", 0.0))
     if lower > upper:
         raise tree.error("lower limit above the upper", f"joint {name}", f"{lower} > {upper}", "swap them")
     if lower <= -NO_LIMIT or upper >= NO_LIMIT:
         notes.each(name, *_WIDE)
-    return Limits(
-        -math.inf if lower <= -NO_LIMIT else lower, math.inf if upper >= NO_LIMIT else upper, effort, velocity
-    )
+    low, high = (-math.inf if lower <= -NO_LIMIT else lower), (math.inf if upper >= NO_LIMIT else upper)
+    return Limits(low, high, effort, velocity, none)
+
+
+def tell_zero_efforts(limits: Mapping[str, Limits], driven: Sequence[str], notes: Notes) -> None:
+    """Note the driven joints whose stated effort of 0 counts as none; what hangs free has no motor anyway."""
+    notes.many((name for name in driven if name in limits and limits[name].no_effort), *_NO_EFFORT)
 
 
 def _strength(tree: Tree, name: str, element: Element, key: str) -> float:

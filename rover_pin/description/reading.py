@@ -11,12 +11,11 @@ from typing import Any, TypeVar
 import yaml
 from pydantic import BaseModel, ValidationError
 
+from rover_pin.description.yaml_nodes import RefusedError, read_yaml
 from rover_pin.errors import SidecarError, nearest
 
 M = TypeVar("M", bound=BaseModel)
 Path = tuple[str | int, ...]
-
-_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # the same, compiled, where there is one
 
 
 def parse_yaml(text: str, file: object) -> tuple[dict[str, Any], yaml.Node]:
@@ -26,20 +25,28 @@ def parse_yaml(text: str, file: object) -> tuple[dict[str, Any], yaml.Node]:
         SidecarError: not YAML, a key stated twice, or not a mapping.
     """
     try:
-        loader = _LOADER(text)
-        node = loader.get_single_node()
-        data = loader.construct_document(node) if node is not None else None
-    except yaml.YAMLError as problem:
-        mark = getattr(problem, "problem_mark", None)
-        place = f"{file}:{mark.line + 1}" if mark is not None else file
-        why = getattr(problem, "problem", None) or str(problem)
+        data, node = read_yaml(text)
+    except RefusedError as problem:
+        where = file if problem.line is None else f"{file}:{problem.line}"
         lines = text.splitlines()
-        bare = mark is not None and mark.line < len(lines) and "${" in lines[mark.line]
-        cure = 'write formulas in quotes: "${...}"' if bare else "check indentation, colons and brackets"
-        raise SidecarError(f"not YAML: {why}", file=place, cure=cure) from problem
+        bare = problem.line is not None and problem.line <= len(lines) and "${" in lines[problem.line - 1]
+        formula = bare and problem.what.startswith("not YAML")
+        raise SidecarError(
+            problem.what,
+            file=where,
+            element=dotted(problem.path) or None,
+            cure='write formulas in quotes: "${...}"' if formula else problem.cure,
+        ) from problem
     if not isinstance(node, yaml.MappingNode) or not isinstance(data, dict):
         raise SidecarError("not a mapping of keys to values", file=file, cure="start with `schema: 1`")
-    _refuse_twice(node, file, ())
+    for key in data:
+        if not isinstance(key, str):
+            raise SidecarError(
+                "a key that is no word",
+                file=place(file, node, (str(key),)),
+                element=str(key),
+                cure="put it in quotes",
+            )
     return data, node
 
 
@@ -72,25 +79,6 @@ def check_schema(data: dict[str, Any], schema: int, file: object) -> None:
             value=data["schema"],
             cure=f"this version reads schema {schema}",
         )
-
-
-def _refuse_twice(node: yaml.Node, file: object, path: Path) -> None:
-    if isinstance(node, yaml.MappingNode):
-        seen: dict[str, int] = {}
-        for key, value in node.value:
-            line = key.start_mark.line + 1
-            if key.value in seen:
-                raise SidecarError(
-                    f"stated twice, first in line {seen[key.value]}",
-                    file=f"{file}:{line}",
-                    element=dotted((*path, key.value)),
-                    cure="keep one",
-                )
-            seen[key.value] = line
-            _refuse_twice(value, file, (*path, key.value))
-    elif isinstance(node, yaml.SequenceNode):
-        for i, value in enumerate(node.value):
-            _refuse_twice(value, file, (*path, i))
 
 
 def validated(

@@ -12,6 +12,11 @@ Payload = tuple[float, tuple[float, float, float] | str]
 """A mass [kg] and where: a place in the root link's frame [m], or the link at whose origin it sits."""
 
 
+def seat(place: tuple[float, float, float] | str, root: str) -> tuple[str, tuple[float, float, float]]:
+    """The link that carries a payload, and where on it (m, in the link's frame)."""
+    return (place, (0.0, 0.0, 0.0)) if isinstance(place, str) else (root, place)
+
+
 @dataclass(frozen=True)
 class Recipe:
     """What `assemble` needs.

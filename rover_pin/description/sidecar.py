@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path as File
 from typing import Annotated, Any, Literal
 
@@ -25,6 +26,7 @@ from rover_pin.description.specs import (
     WheelSpec,
 )
 from rover_pin.description.srdf import Srdf, read_srdf
+from rover_pin.description.tree import HUGE
 from rover_pin.errors import SidecarError
 from rover_pin.mechanism import CouplingSpec, FrameSpringSpec, JointSpringSpec, LoopSpec, TrackSpec
 
@@ -101,6 +103,13 @@ def _read(text: str, file: object, values: tuple[tuple[str, float], ...] | None)
         defaults = {name: float(spec.default) for name, spec in declared.items()}
         known = {**defaults, **dict(values or ())}
         fill_in(present, known, lambda path: (place(file, node, path), dotted(path)))
+    for path in _huge(present):
+        raise SidecarError(
+            "too large to be meant",
+            file=place(file, node, path),
+            element=dotted(path),
+            cure="give m, kg, N, N/m or rad; leave a limit out where there is none",
+        )
     sidecar = validated(Sidecar, present, node, file)
     for key in ("loops", "couplings", "springs", "tracks"):
         _once([spec.name for spec in getattr(sidecar, key)], key, file)
@@ -144,6 +153,25 @@ def _with_embedded(data: dict[str, Any]) -> dict[str, Any]:
     return data
 
 
+_WIDE = frozenset({"limits", "bounds", "length_max", "embedded"})  # a large number there is no limit
+
+
+def _huge(data: Any, path: Path = ()) -> Iterator[Path]:
+    """Where numbers stand that no robot has; solvers would choke on them."""
+    if isinstance(data, (dict, list)):
+        for key, value in data.items() if isinstance(data, dict) else enumerate(data):
+            if key not in _WIDE:
+                yield from _huge(value, (*path, key))
+        return
+    try:
+        if HUGE < abs(float(data)) < math.inf and not isinstance(data, bool):
+            yield path
+    except (TypeError, ValueError):
+        return  # no number
+    except OverflowError:
+        yield path
+
+
 class _Declared(BaseModel):
     parameters: dict[str, ParameterSpec] = {}
 
@@ -185,7 +213,7 @@ def load_sidecar(
         if "schema" not in parse_yaml(text, path)[0]:
             text = f"{text.rstrip()}\nschema: {SCHEMA}"
     text = with_others(text, others)
-    return read_sidecar(text, path), text
+    return read_sidecar(text, path or next(iter(others.values())).file), text
 
 
 def _once(names: Sequence[str], key: str, file: object) -> None:

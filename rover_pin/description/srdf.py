@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from rover_pin.description.tree import parse_xml
 from rover_pin.errors import DescriptionError
 
 
@@ -60,11 +61,7 @@ def read_srdf(text: str, file: str) -> Srdf:
 def _robot(text: str, file: str) -> Any:
     from lxml import etree
 
-    parser = etree.XMLParser(remove_comments=True, resolve_entities=False, no_network=True)
-    try:
-        robot = etree.fromstring(text.encode("utf-8"), parser)
-    except etree.XMLSyntaxError as problem:
-        raise DescriptionError(f"not XML: {problem.msg}", file=file, cure="give an SRDF file") from problem
+    robot = parse_xml(text, file, "give an SRDF file")
     if robot.tag != "robot" or robot.find("link") is not None:
         what = "a URDF" if robot.tag == "robot" else f"<{etree.QName(robot).localname}>"
         raise DescriptionError(

@@ -10,6 +10,7 @@ Element = Any  # lxml publishes no types
 
 TURNING = frozenset({"revolute", "continuous"})
 MOVING = TURNING | {"prismatic"}
+HUGE = 1e12  # no length, mass, moment or angle of a robot, whatever its unit
 JOINT_TYPES = MOVING | {"fixed", "floating", "planar"}
 
 
@@ -77,13 +78,7 @@ def parse(text: str, file: str) -> Tree:
     """
     from lxml import etree
 
-    parser = etree.XMLParser(remove_comments=True, remove_pis=True, resolve_entities=False, no_network=True)
-    try:
-        robot = etree.fromstring(text.encode("utf-8"), parser)
-    except etree.XMLSyntaxError as problem:
-        raise DescriptionError(
-            f"not XML: {problem.msg}", file=file, cure="give a URDF or xacro file, or mend it there"
-        ) from problem
+    robot = parse_xml(text, file, "give a URDF or xacro file, or mend it there")
     if robot.tag != "robot":
         raise DescriptionError(
             f"not a URDF: its outermost element is <{etree.QName(robot).localname}>",
@@ -93,6 +88,27 @@ def parse(text: str, file: str) -> Tree:
     if robot.find("link") is None:
         raise DescriptionError("a robot without a link", file=file, cure="give it at least one <link>")
     return Tree(robot, file)
+
+
+def parse_xml(text: str, file: object, cure: str) -> Element:
+    """The outermost element of an XML text, comments left out. Nothing else is opened; bombs are refused.
+
+    Raises:
+        DescriptionError: not XML, or text behind entities.
+    """
+    from lxml import etree
+
+    parser = etree.XMLParser(remove_comments=True, remove_pis=True, resolve_entities=False, no_network=True)
+    try:
+        found = etree.fromstring(text.encode("utf-8"), parser)
+        entity = next(found.iter(etree.Entity), None)
+        if entity is not None:
+            raise DescriptionError("entities are not read", file=file, value=entity.text, cure="write it out")
+        # It lets names pass (`a:`) that no parser takes again, and what is built on the tree reads it anew.
+        etree.fromstring(etree.tostring(found), parser)
+    except etree.XMLSyntaxError as problem:
+        raise DescriptionError(f"not XML: {str(problem.msg)[:300]}", file=file, cure=cure) from problem
+    return found
 
 
 def numbers(text: str) -> list[float]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
+from rover_pin.description.guesses import cure_for_no_contact
 from rover_pin.errors import InputError, OffMapError
 from rover_pin.statics.asked import held_values
 from rover_pin.statics.follow import follow, straight
@@ -117,7 +118,7 @@ def _check(rover: Rover, terrain: Terrain, x: float, y: float, yaw: float, gravi
             "nothing of this robot touches the ground: it has no wheels and no contacts",
             file=rover.sidecar_path or rover.source,
             element="wheels",
-            cure="declare `wheels` (name, frame, radius, width) in a sidecar rover.yaml beside the URDF",
+            cure=cure_for_no_contact(rover.recipe.sidecar_text),
         )
     if not bool(terrain.covers(x, y)):
         xmin, xmax, ymin, ymax = terrain.extent

@@ -15,6 +15,8 @@ from rover_pin.terrain.probe import UNBOUNDED, Extent
 INTERPOLATIONS = {"smooth": 3, "linear": 2}
 """Interpolation: the least number of nodes along each side of a grid."""
 
+HIGHEST = 1e9  # m; such a number is a damaged file or another mark for no data
+
 
 def finite(name: str, value: Any, file: object = None) -> float:
     """`value` as a finite float.
@@ -109,6 +111,7 @@ def heights(values: Any, interpolation: str, file: object = None) -> Array:
     result: Array = np.ascontiguousarray(array, dtype=np.float64)
     require_no_gaps(np.isnan(result), "NaN", file)
     require_no_gaps(np.isinf(result), "infinite heights", file)
+    require_no_gaps(np.abs(result) > HIGHEST, f"heights beyond {HIGHEST:g} m", file)
     return result
 
 

@@ -128,7 +128,7 @@ def test_quantities(written: object, meant: object) -> None:
             BASE + "payload: [{kg: -1, at: [0, 0, 0]}]",
             "s.yaml: payload.0.kg: should be greater than 0 (got -1)",
         ),
-        (BASE + "cases: {n: 4, n: 5}", "s.yaml: n: key stands twice (line 3); keep one"),
+        (BASE + "cases: {n: 4, n: 5}", "s.yaml:3: cases.n: stated twice, first in line 3; keep one"),
         (
             BASE + "cases: {n: 4, grid: {x: 2}}",
             "s.yaml: cases.n: n and grid both say how many (got 4); keep one",
@@ -151,7 +151,10 @@ def test_quantities(written: object, meant: object) -> None:
         (BASE + "cases: 3", "s.yaml: cases: should be a mapping of keys to values (got 3)"),
         (BASE + "payload: 3", "s.yaml: payload: should be a list (got 3)"),
         ("", "s.yaml: is no mapping of keys to values (got 'nothing'); start with `robot: NAME`"),
-        ("a: [1", "s.yaml: is not YAML in line 1: expected ',' or ']', but got '<stream end>'"),
+        (
+            "a: [1",
+            "s.yaml:1: not YAML: did not find expected ',' or ']'; check indentation, colons and brackets",
+        ),
     ],
 )
 def test_mistakes_get_one_line(text: str, message: str) -> None:
@@ -175,9 +178,7 @@ def test_a_binary_file_is_no_study(tmp_path: Path) -> None:
 
 
 def test_yaml_is_read_safely() -> None:
-    with pytest.raises(
-        StudyError, match=r"^s\.yaml: is not YAML in line 1: could not determine a constructor"
-    ):
+    with pytest.raises(StudyError, match=r"^s\.yaml:1: not YAML: could not determine a constructor"):
         read("robot: !!python/object/apply:os.system ['true']\nterrain: flat")
 
 

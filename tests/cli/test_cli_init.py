@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 import yaml
 
 import rover_pin as rp
@@ -23,7 +24,8 @@ FIXTURES = [
 OTHERS = [
     "tiago_description/robots/tiago.urdf", "tiago_pro_description/robots/tiago_pro.urdf",
     "pr2_description/urdf/pr2.urdf", "centauro_description/urdf/centauro.urdf",
-    "anymal_b_simple_description/robots/anymal.urdf",
+    "anymal_b_simple_description/robots/anymal.urdf", "hyq_description/robots/hyq_no_sensors.urdf",
+    "laikago_description/urdf/laikago.urdf",
 ]  # fmt: skip
 
 
@@ -89,8 +91,8 @@ def test_robots_of_others_load_once_uncommented(name, tmp_path):
         entry = re.match(r"#   - |# \w+: \S", line)
         assert not entry or "# guess: " in line or "# <mimic>" in line, line
     rover = rp.load(DATA / name, sidecar=uncommented(tmp_path / "rover.yaml"))
-    touching = {"tiago.urdf": 6, "tiago_pro.urdf": 4, "pr2.urdf": 0, "centauro.urdf": 4, "anymal.urdf": 4}
-    assert len(rover.shapes) == touching[Path(name).name]
+    touching = {"tiago.urdf": 6, "pr2.urdf": 0}
+    assert len(rover.shapes) == touching.get(Path(name).name, 4)
     if rover.shapes:
         assert str(rp.settle(rover, rp.Terrain.flat(), posture=None).status) in (
             "settled",
@@ -142,6 +144,47 @@ def test_a_gepetto_file_beside_is_named_as_it_is(make, tmp_path):
     assert rover.actuated == ("j",)
 
 
+@pytest.mark.parametrize("upper", [-0.6108652381980153, -12.3456789, 1.04719755])
+def test_a_home_at_a_limit_is_rounded_to_the_inside(make, tmp_path, upper):
+    lower, upper = (upper - 1.0, upper) if upper < 0 else (upper, upper + 1.0)
+    path = make.write(*make.pair(kind="prismatic", limits=f"{lower!r} {upper!r}"))
+    begun(path, tmp_path / "rover.yaml")
+    home = rp.load(path, sidecar=uncommented(tmp_path / "rover.yaml")).postures["home"]["j"]
+    assert lower <= home <= upper
+    assert home == pytest.approx(min(lower, upper, key=abs), rel=1e-5)
+
+
+def test_feet_without_a_shape_are_told(make, tmp_path):
+    body = [make.link("base_footprint"), make.link("LF_FOOT"), make.joint("j", "base_footprint", "LF_FOOT")]
+    text = begun(make.write(*body), tmp_path / "rover.yaml")
+    assert "## Note: link LF_FOOT is named like a foot, but no sphere tells its radius.\n" in text
+    assert "base_footprint is named" not in text
+
+
+def test_a_root_that_points_down_and_floats(make, tmp_path):
+    wheel = (
+        '<collision><origin rpy="1.5707963 0 0"/><geometry><cylinder radius="0.1" length="0.06"/></geometry>'
+        "</collision>"
+    )
+    body = [make.link("odom"), make.link("hull", 20), make.joint("free", "odom", "hull", "floating")]
+    for name, x, y in (("fl", 0.3, -0.2), ("fr", 0.3, 0.2), ("bl", -0.3, -0.2), ("br", -0.3, 0.2)):
+        body += [
+            make.link(f"wheel_{name}", 1, wheel),
+            make.joint(name, "hull", f"wheel_{name}", "continuous", xyz=f"{x} {y} 0.15"),
+            f'<transmission name="t_{name}"><joint name="{name}"/></transmission>',
+            f'<gazebo reference="wheel_{name}"><mu1>0.7</mu1></gazebo>',
+        ]
+    path = make.write(*body)
+    text = begun(path, tmp_path / "rover.yaml")
+    assert "# up: [0, 0, -1]  # guess: every wheel lies above the centre of mass along z\n" in text
+    assert "## Note: <transmission> says what is driven: bl, br, fl, fr.\n" in text
+    rover = rp.load(path, sidecar=uncommented(tmp_path / "rover.yaml"))
+    assert [wheel.friction for wheel in rover.wheels] == [0.7] * 4
+    stance = rp.settle(rover, rp.Terrain.flat())
+    assert list(stance.loads.values()) == pytest.approx([24 * 9.81 / 4] * 4)
+    assert all(contact.point[2] == pytest.approx(0.0, abs=1e-9) for contact in stance.contacts)
+
+
 def test_nothing_is_overwritten(make, tmp_path, capsys):
     path = make.write(*make.pair(), sidecar="")
     assert main(["init", str(path)]) == 2
@@ -159,3 +202,52 @@ def test_the_object(make, tmp_path, capsys):
     told = json.loads(capsys.readouterr().out)
     assert told["file"] == str(tmp_path / "a.yaml")
     assert {"key": "passive", "line": "[]"}.items() <= told["guesses"][0].items()
+
+
+def exported(folder):
+    """A URDF as a CAD exporter writes it: meshes in mm, names with blanks and colons, wheels about -y."""
+    wheel = trimesh.creation.cylinder(100, 60, sections=64)
+    wheel.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [1, 0, 0]))
+    (folder / "meshes").mkdir()
+    inertial = (
+        '<inertial><mass value="2"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    )
+    parts = [f'<link name="base_link">{inertial}</link>']
+    for k, (x, y) in enumerate(((0.3, 0.3), (0.3, -0.3), (-0.3, 0.3), (-0.3, -0.3))):
+        moved = wheel.copy().apply_translation((1000 * x, 1000 * y, -100))
+        moved.export(folder / f"meshes/Wheel v{k}.stl")
+        parts.append(
+            f'<link name="Wheel v{k}:1">{inertial}<visual><origin xyz="{-x} {-y} 0.1"/><geometry><mesh '
+            f'filename="package://fusion/meshes/Wheel v{k}.stl" scale="0.001 0.001 0.001"/></geometry>'
+            f'</visual></link><joint name="Revolute {k}" type="continuous"><origin xyz="{x} {y} -0.1"/>'
+            f'<parent link="base_link"/>'
+            f'<child link="Wheel v{k}:1"/><axis xyz="0.0 -1.0 0.0"/></joint>'
+        )
+    path = folder / "fusion.urdf"
+    path.write_text(f'<?xml version="1.0" ?><robot name="fusion">{"".join(parts)}</robot>')
+    return path
+
+
+def test_a_cad_export_stands_once_its_guesses_are_taken(tmp_path, capsys):
+    folder = tmp_path / "fusion"
+    folder.mkdir()
+    urdf = exported(folder)
+    assert main(["settle", str(urdf)]) == 2
+    assert capsys.readouterr().err.endswith("; rover-pin init URDF writes a sidecar to start from\n")
+    assert main(["init", str(urdf)]) == 0
+    assert capsys.readouterr().err.endswith("every guess is commented out\n")
+    assert main(["settle", str(urdf)]) == 2
+    assert capsys.readouterr().err == (
+        f"error: {folder}/rover.yaml: wheels: nothing of this robot touches the ground: it has no wheels "
+        "and no contacts; take `# ` away from its lines that are right: guesses of rover-pin init are not "
+        "used before\n"
+    )
+    waiting = "guesses of rover-pin init are still commented out in rover.yaml: not used"
+    assert any(note.endswith(waiting) for note in rp.load(urdf).notes)
+    uncommented(folder / "rover.yaml")
+    rover = rp.load(urdf)
+    assert not any(note.endswith(waiting) for note in rover.notes)
+    assert [wheel.link for wheel in rover.wheels] == [f"Wheel v{k}:1" for k in range(4)]
+    assert [wheel.radius for wheel in rover.wheels] == pytest.approx([0.1] * 4, rel=0.01)
+    stance = rp.settle(rover, rp.Terrain.flat())
+    assert list(stance.loads.values()) == pytest.approx([9.81 * 10 / 4] * 4)

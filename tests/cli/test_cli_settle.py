@@ -38,7 +38,7 @@ def test_settle_prints_the_object_of_the_contract(run: Any) -> None:
     assert (status, err) == (0, "")
     assert set(told) == {
         *("robot", "status", "base", "joints", "wheels", "tensions_n", "springs_n", "stability", "residuals"),
-        *("redundant", "undetermined", "reason", "notes", "gravity", "payload"),
+        *("redundant", "undetermined", "reason", "notes", "gravity", "payload", "unanswered"),
     }
     _, out, _ = run("settle", "rocker_bogie", "--resistance", "30", "--json")
     pulled = json.loads(out)
@@ -101,8 +101,22 @@ def test_not_settled_is_one_and_prints_all_the_same(run: Any) -> None:
     assert err == ""
     assert told["status"] == "tips"
     assert told["reason"]
-    assert told["stability"] == {}
+    assert told["stability"] == told["unanswered"] == {}
     assert all(wheel["load_n"] is None for wheel in told["wheels"].values())
+
+
+def test_measures_without_an_answer_say_why(run: Any) -> None:
+    _, out, _ = run("settle", "rocker_bogie", "--json")
+    assert json.loads(out)["unanswered"] == {}
+    path = str(Path(__file__).parents[1] / "fixtures" / "trailing4" / "trailing4.urdf")
+    told = json.loads(run("settle", path, "--json")[1])["unanswered"]
+    assert told == {
+        "clearance": "trailing4 declares no belly points",
+        "feasible": "the region is a line",
+        "region": "the region is a line",
+    }
+    lines = run("settle", path)[1].splitlines()
+    assert {f"{name}: {why}" for name, why in told.items()} <= set(lines)
 
 
 def test_tables_are_for_people(run: Any) -> None:

@@ -50,7 +50,11 @@ def test_zero_effort_is_a_placeholder(make):
         make.link("b"),
         make.joint("j", "a", "b", "continuous", extra='<limit effort="0"/>'),
     ]
-    assert make.load(*body).effort[6] == np.inf
+    driven, free = (make.load(*body, sidecar=f"{key}: [j]") for key in ("actuated", "passive"))
+    told = "joint j: driven with effort 0, taken as a motor without a stated limit"
+    assert driven.effort[6] == free.effort[6] == np.inf
+    assert told in driven.notes
+    assert told not in free.notes
 
 
 @pytest.mark.parametrize("kind", ["revolute", "prismatic"])

@@ -184,7 +184,7 @@ def _branch(e) -> Branch:
     place[:3, 3] = _numbers(origin, "xyz")
     return Branch(
         e.get("name"), kind == "prismatic", kind == "fixed", e.find("parent").get("link"),
-        e.find("child").get("link"), place, along / np.linalg.norm(along),
+        e.find("child").get("link"), place, along / (np.linalg.norm(along) or 1.0),
     )  # fmt: skip
 
 

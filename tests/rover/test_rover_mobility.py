@@ -57,7 +57,9 @@ def test_a_loop_that_cannot_close(make):
     rover = four_bar(make, coupler=5.0)
     with pytest.raises(rp.errors.MechanismError) as caught:
         rover.info()
-    assert str(caught.value).startswith("loops.bar: it cannot close from the home posture: ")
+    assert str(caught.value).startswith(
+        f"{rover.sidecar_path}: loops.bar: it cannot close from the home posture: "
+    )
     assert "m or rad remain; check its frames and lengths" in str(caught.value)
 
 

@@ -133,7 +133,13 @@ def test_a_grid_may_break_its_lines_anywhere_and_say_little(tmp_path):
         ("nrows 3", "nrows 2.5", "nrows: not a whole number above zero (got 2.5)"),
         ("nrows 3", "nrows 3\nnrows 3", "line 3, nrows: stands twice; keep one"),
         ("nrows 3", "nrows three", "line 2, nrows: not a number (got 'three'); write a number"),
-        ("6 7", "6 7,5", "line 8, column 3: not a number (got '7,5'); write a number"),
+        ("6 7", "6 7,5", "line 8, column 3: not a number (got '7,5'); "
+         "write a point for the decimal mark"),
+        ("6 7", "6 1_7", "line 8, column 3: not a number (got '1_7'); write a number"),
+        ("6 7", "6 1e300", "the map holds heights beyond 1e+09 m in 1 of 12 cells, "
+         "the first at row 1, column 2; fill them or cut them off"),
+        ("cellsize 0.5", "dx 0.5\ndy 0.4", "dx, dy: cells that are not square (got '0.5 x 0.4'); "
+         "resample to square cells"),
         ("cellsize 0.5", "cellsize 0.5\nxllcenter 2", "xllcorner: both the corner and the centre of the "
          "first cell are given; keep one"),
     ],

@@ -19,8 +19,9 @@ from rover_pin.errors import StudyError
 from rover_pin.viz.page import pack as pack_module
 from rover_pin.viz.page.columns import decoded, numbers, planes, unplaned, words
 from rover_pin.viz.page.html import HERE
+from rover_pin.viz.page.measured import main_measure, worst_cases
 from rover_pin.viz.page.raster import ground_raster
-from rover_pin.viz.page.study import main_measure, study_page, worst_cases
+from rover_pin.viz.page.study import study_page
 
 FLOATS = st.lists(st.floats(-1e6, 1e6) | st.sampled_from([np.nan, np.inf, -np.inf]), min_size=1, max_size=60)
 
@@ -168,8 +169,8 @@ def test_blocks_are_cut_and_join(study, monkeypatch):
 def test_the_pages_own_scripts_read_the_same_numbers(study, tmp_path):
     data, text, terrain, _ = study
     header, segments = read_back(text)
-    for name in ("columns.js", "ground.js"):
-        (tmp_path / name).write_text((HERE / "js" / name).read_text())
+    for source in (HERE / "js").glob("*.js"):
+        (tmp_path / source.name).write_text(source.read_text())
     (tmp_path / "package.json").write_text('{"type": "module"}')
     packed = {name: base64.b64encode(part).decode() for name, part in segments.items() if "robot" not in name}
     (tmp_path / "in.json").write_text(json.dumps({"header": header, "segments": packed}))
@@ -185,7 +186,8 @@ const ground = new Ground(header.ground, parts.get("ground"));
 const out = { tip: [...cases.column("tip")].map(String), polygon: [...cases.column("polygon")].map(String),
   torque: [...cases.column("torque")].map(String),
   status: Array.from({length: cases.count}, (_, i) => cases.at("status", i)),
-  order: [...cases.order("tip")], low: [...cases.order("torque")], median: cases.quantile("tip", 0.5),
+  order: [...cases.order("tip").order], low: [...cases.order("torque").order],
+  median: cases.quantile("tip", 0.5),
   heights: [[0.3, 0.2], [-1.1, 2.0]].map(([x, y]) => ground.at(x, y)) };
 console.log(JSON.stringify(out));
 """)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,15 +13,26 @@ from rover_pin.viz.units import TITLES
 if TYPE_CHECKING:
     import xarray as xr
 
+    from rover_pin.analysis.chances import Probability
 
-def matters_of(dataset: xr.Dataset) -> dict[str, Any] | None:
+
+def matters_of(
+    dataset: xr.Dataset,
+    chances: Sequence[Probability] | None = None,
+    indices: xr.Dataset | str | None = None,
+) -> dict[str, Any] | None:
     """`said`: sentences; `figures`: name, title and rows (input, first, +-, total, +-), most telling first.
 
     None where the study drew nothing at random.
+
+    Args:
+        dataset: of a Study.
+        chances: of `probabilities`, worked out where silent.
+        indices: of `sobol_indices`, or why there are none; worked out where silent.
     """
     from rover_pin.analysis.chances import probabilities
 
-    found = probabilities(dataset)
+    found = probabilities(dataset) if chances is None else chances
     said = [
         f"Probability of {p.event}: {100 * p.share:.3g} % (95 %: {100 * p.low:.3g} to {100 * p.high:.3g} %), "
         f"{p.count} of {p.cases} cases: {p.rule}."
@@ -31,19 +43,25 @@ def matters_of(dataset: xr.Dataset) -> dict[str, Any] | None:
         said.append(f"Intervals: {found[0].interval}.")
     figures: list[dict[str, Any]] = []
     if dataset.attrs.get("sampler") == "saltelli":
-        figures = _figures(dataset, said)
+        known = _indices(dataset) if indices is None else indices
+        if isinstance(known, str):
+            said.append(f"No Sobol indices: {known}.")
+        else:
+            figures = _figures(known, said)
     return {"said": said, "figures": figures} if said else None
 
 
-def _figures(dataset: xr.Dataset, said: list[str]) -> list[dict[str, Any]]:
-    """The figures that vary; what was dropped or refused is told."""
+def _indices(dataset: xr.Dataset) -> xr.Dataset | str:
     from rover_pin.analysis.indices import sobol_indices
 
     try:
-        found = sobol_indices(dataset)
+        return sobol_indices(dataset)
     except StudyError as error:
-        said.append(f"No Sobol indices: {error}.")
-        return []
+        return str(error)
+
+
+def _figures(found: xr.Dataset, said: list[str]) -> list[dict[str, Any]]:
+    """The figures that vary; what was dropped or refused is told."""
     most = int(found.dropped.values.max())
     if most:
         said.append(f"Up to {most} blocks of cases dropped: {found.attrs['why_dropped']}.")

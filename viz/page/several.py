@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-import pinocchio as pin
 
-from rover_pin.contact import pack
-from rover_pin.contact.search import find_all
+from rover_pin.mechanism import Reduction
+from rover_pin.statics.problem import Problem
+from rover_pin.viz.page.measured import worst_cases
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -21,8 +21,6 @@ WINDOW = 1e-5
 """m: what is so near to touching as the wheel's nearest place touches too, as in `settle`."""
 
 BASE = ("x_m", "y_m", "z_m", "yaw_rad", "pitch_rad", "roll_rad")
-MOST_CONTACTS = 8
-
 LOOKED_AT = 4000
 """Worst cases that are looked through: up to a millisecond each."""
 
@@ -42,8 +40,6 @@ def exact_cases(dataset: xr.Dataset, rover: Rover, terrain: Terrain, worst: int 
         terrain: the study's.
         worst: how many of the worst.
     """
-    from rover_pin.viz.page.study import worst_cases
-
     ranked = worst_cases(dataset, LOOKED_AT)
     if any("parameter" in values.attrs for values in dataset.data_vars.values()):
         return ranked[:worst]
@@ -68,30 +64,12 @@ def several(dataset: xr.Dataset, rover: Rover, terrain: Terrain, among: list[int
     columns = {str(name): k + len(BASE) for k, name in enumerate(rover.model.names[2:])}
     for k, name in enumerate(dataset["joint"].values):
         q[:, columns[str(name)]] = joints[:, k]
-    look = _Look(rover, terrain)
-    return [case for case, each in zip(among, q, strict=True) if look.most(each) > 1]
+    every = Reduction(np.eye(rover.model.nv), np.zeros(rover.model.nv), tuple(range(rover.model.nv)))
+    problem = Problem(rover, every, 0.0)  # all of q is free, and only contacts are asked for
+    return [case for case, each in zip(among, q, strict=True) if _most(problem, terrain, each) > 1]
 
 
-class _Look:
-    """The contact search of one rover on one terrain."""
-
-    def __init__(self, rover: Rover, terrain: Terrain) -> None:
-        self.model, self.data = rover.model, rover.model.createData()
-        self.shapes, self.terrain = pack(rover.shapes), terrain
-        count = len(rover.shapes)
-        self.found, self.counts = np.empty((count, MOST_CONTACTS, 7)), np.zeros(count, dtype=np.int64)
-
-    def most(self, q: Array) -> int:
-        """The most places in which one wheel touches, at the configuration q (nv,)."""
-        pin.forwardKinematics(self.model, self.data, q)
-        shapes, ground = self.shapes, self.terrain
-        frames = [self.data.oMi[int(joint)] for joint in shapes.joints]
-        centers = np.array([frame.act(c) for frame, c in zip(frames, shapes.centers, strict=True)])
-        axes = np.array([frame.rotation @ a for frame, a in zip(frames, shapes.axes, strict=True)])
-        find_all(
-            ground.kind, ground.table, ground.params, ground.spacing, shapes.forms, centers, axes,
-            shapes.rings, shapes.treads, WINDOW, self.found, self.counts,
-        )  # fmt: skip
-        touching = self.found[:, :, 0] < WINDOW
-        inside = np.arange(MOST_CONTACTS) < self.counts[:, None]
-        return int((touching & inside).sum(axis=1).max())
+def _most(problem: Problem, terrain: Terrain, q: Array) -> int:
+    """The most places in which one wheel touches, at the configuration q (nv,)."""
+    owners, contacts = problem.search(problem.locate(q), terrain, WINDOW)
+    return int(np.bincount(owners[contacts[:, 0] < WINDOW], minlength=1).max())

@@ -6,77 +6,23 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from rover_pin.errors import StudyError, nearest
+from rover_pin.errors import StudyError
 from rover_pin.viz.facts import STATUS_WORDS
-from rover_pin.viz.page.columns import Column, numbers, words
 from rover_pin.viz.page.html import page, write_whole
 from rover_pin.viz.page.matters import matters_of
+from rover_pin.viz.page.measured import about_measures, main_measure
 from rover_pin.viz.page.pack import Pack
 from rover_pin.viz.page.raster import ground_raster
 from rover_pin.viz.page.robots import robot
+from rover_pin.viz.page.rows import page_columns, unit_of, varied
 from rover_pin.viz.page.sweep import sweep_of
-from rover_pin.viz.units import ranked, shown, title_of
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rover_pin.numerics import Array
     from rover_pin.rover import Rover
     from rover_pin.statics.stance import Stance
     from rover_pin.terrain import Terrain
-
-POSE = ("x_m", "y_m", "z_m", "roll_rad", "pitch_rad", "yaw_rad")
-
-
-def measures_of(dataset: xr.Dataset) -> list[str]:
-    """The measures in a study's dataset: one number a case, and which way is better; tipping first."""
-    found = [
-        str(name) for name, v in dataset.data_vars.items() if v.dims == ("case",) and "better" in v.attrs
-    ]
-    return ranked(found)
-
-
-def main_measure(dataset: xr.Dataset, measure: str | None = None) -> str:
-    """The measure asked for, else the one that says most about tipping.
-
-    Raises:
-        StudyError: the dataset has no such measure, or none at all.
-    """
-    found = [*measures_of(dataset), *(about["name"] for about in _load_measures(dataset))]
-    if measure is None and found:
-        return str(found[0])
-    if measure is None or measure not in found:
-        raise StudyError(
-            "the study has no such measure",
-            element="measure",
-            value=measure,
-            cure=nearest(measure or "", found),
-        )
-    return measure
-
-
-def worst_cases(dataset: xr.Dataset, count: int = 10, measure: str | None = None) -> list[int]:
-    """Numbers of the settled cases with the worst values of a measure, the worst first.
-
-    Raises:
-        StudyError: the dataset has no such measure.
-    """
-    name = main_measure(dataset, measure)
-    values, better = _values(dataset, name)
-    usable = (dataset["status"].values.astype(str) == "settled") & ~np.isnan(values)
-    keys = values if better == "high" else -values
-    order = np.argsort(keys, kind="stable")
-    return [int(i) for i in order[usable[order]][:count]]
-
-
-def _values(dataset: xr.Dataset, name: str) -> tuple[Array, str]:
-    """A measure's values and which way is better; the lightest and heaviest wheel are measures too."""
-    if name in dataset:
-        return np.asarray(dataset[name].values, dtype=np.float64), str(dataset[name].attrs["better"])
-    loads = np.asarray(dataset["load_n"].values, dtype=np.float64)[:, _bearing(dataset)]
-    return (loads.min(axis=1), "high") if name == "lightest_wheel" else (loads.max(axis=1), "low")
 
 
 def save_study_page(
@@ -113,8 +59,9 @@ def study_page(
     terrain: Terrain,
     stances: Mapping[int, Stance],
     measure: str | None = None,
+    matters: Mapping[str, Any] | None = None,
 ) -> str:
-    """The page's HTML text; arguments as in `save_study_page`."""
+    """The page's HTML text; arguments as in `save_study_page`; `matters` of `matters_of`, where known."""
     if not dataset.sizes.get("case"):
         raise StudyError("the study has no case", cure="run it with n of 1 or more")
     columns = page_columns(dataset)
@@ -128,16 +75,17 @@ def study_page(
         "about": {str(key): _text(value) for key, value in dataset.attrs.items()},
         "cases": int(dataset.sizes["case"]),
         "first": main_measure(dataset, measure),
-        "measures": [_about_measure(dataset, name) for name in measures_of(dataset)]
-        + _load_measures(dataset),
+        "measures": about_measures(dataset),
         "wheels": [str(name) for name in dataset["wheel"].values],
         "joints": [str(name) for name in dataset["joint"].values],
-        "varied": _varied(dataset),
-        "reshaped": any(name.removeprefix("parameter_") in rover.parameters for name in _varied(dataset)),
-        "columns": {name: column.about() for name, column in columns.items()},
+        "varied": varied(dataset),
+        "reshaped": any(name.removeprefix("parameter_") in rover.parameters for name in varied(dataset)),
+        "columns": {
+            name: {**column.about(), "unit": unit_of(dataset, name)} for name, column in columns.items()
+        },
         "status_words": STATUS_WORDS,
         "sweep": sweep_of(dataset),
-        "matters": matters_of(dataset),
+        "matters": matters or matters_of(dataset),
         "ground": ground,
         "robots": [about for about, _ in variants],
         "exact": exact,
@@ -145,72 +93,6 @@ def study_page(
     segments = {f"column/{name}": column.data for name, column in columns.items()}
     segments |= {"ground": heights, **{f"robot/{i}": stream for i, (_, stream) in enumerate(variants)}}
     return page("study", title, Pack(header, segments))
-
-
-def page_columns(dataset: xr.Dataset) -> dict[str, Column]:
-    """Every column of the page by its name: `load_n/fl` for one wheel, `tip_limiting` in words."""
-    columns = {"status": words(dataset["status"].values)}
-    if "reason" in dataset:
-        columns["reason"] = words(dataset["reason"].values)
-    for name in POSE:
-        columns[name] = numbers(dataset[name].values)
-    for name in measures_of(dataset):
-        columns[name] = numbers(dataset[name].values)
-        if f"{name}_limiting" in dataset:
-            columns[f"{name}_limiting"] = words(dataset[f"{name}_limiting"].values)
-    loads = np.asarray(dataset["load_n"].values, dtype=np.float64)
-    for k, wheel in enumerate(dataset["wheel"].values):
-        columns[f"load_n/{wheel}"] = numbers(loads[:, k])
-    for k, track in enumerate(dataset["track"].values if "tension_n" in dataset else ()):
-        columns[f"tension_n/{track}"] = numbers(dataset["tension_n"].values[:, k])
-    for about in _load_measures(dataset):
-        columns[about["name"]] = numbers(_values(dataset, about["name"])[0])
-    for k, joint in enumerate(dataset["joint"].values):
-        columns[f"joint_rad/{joint}"] = numbers(dataset["joint_rad"].values[:, k])
-    for name in _varied(dataset):
-        values = dataset[name].values
-        columns[name] = numbers(values) if values.dtype.kind in "fiu" else words(values)
-    return columns
-
-
-def _varied(dataset: xr.Dataset) -> list[str]:
-    """What the study varied beside the place: parameters, friction, posture, joints."""
-    return [
-        str(name)
-        for name, values in dataset.data_vars.items()
-        if values.dims == ("case",)
-        and values.attrs.get("varied")
-        and name not in POSE
-        and "better" not in values.attrs
-    ]
-
-
-def _about_measure(dataset: xr.Dataset, name: str) -> dict[str, Any]:
-    attributes = dataset[name].attrs
-    unit, factor = shown(str(attributes.get("units", "")))
-    return {
-        "name": name,
-        "title": title_of(name, attributes),
-        "unit": unit,
-        "factor": factor,
-        "better": str(attributes["better"]),
-    }
-
-
-def _bearing(dataset: xr.Dataset) -> list[int]:
-    """Which of the wheels should carry."""
-    idle = str(dataset["load_n"].attrs.get("auxiliary", "")).split(", ")
-    return [k for k, name in enumerate(dataset["wheel"].values) if str(name) not in idle]
-
-
-def _load_measures(dataset: xr.Dataset) -> list[dict[str, Any]]:
-    if not dataset.sizes.get("wheel") or not _bearing(dataset):
-        return []
-    pairs = (("lightest_wheel", "Lightest wheel", "high"), ("heaviest_wheel", "Heaviest wheel", "low"))
-    return [
-        {"name": name, "title": title, "unit": "N", "factor": 1.0, "better": way}
-        for name, title, way in pairs
-    ]
 
 
 def _variants(

@@ -95,9 +95,16 @@ def inertia_of(source: Source, geom: Geom) -> pin.Inertia:
     volume, com, tensor = _solid(source, geom)
     stated = source.numbers(geom.element, "mass", count=None)
     mass = stated[0] if stated else volume * source.numbers(geom.element, "density", "1000")[0]
+    if mass < 0:
+        raise source.error("negative mass", geom.element, mass, "give its mass in kg, or density in kg/m3")
     if volume <= 0 or mass == 0:
         return pin.Inertia.Zero()
-    return geom.placed.act(pin.Inertia(mass, com, tensor * (mass / volume)))
+    try:
+        return geom.placed.act(pin.Inertia(mass, com, tensor * (mass / volume)))
+    except RuntimeError as problem:  # Pinocchio's own check of the tensor
+        raise source.error(
+            f"no inertia: {problem}", geom.element, str(geom.size), "mend its sizes"
+        ) from problem
 
 
 def _solid(source: Source, geom: Geom) -> tuple[float, Array, Array]:

@@ -5,16 +5,21 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pinocchio as pin
 
+from rover_pin.description.tree import HUGE, parse_xml
 from rover_pin.errors import DescriptionError
 from rover_pin.numerics import Array
 
 Element = Any  # lxml publishes no types
+_WIDE = ("range", "ref")  # a large number there says that there is no limit
+TINY = 1e-12
+_CURE = "mend it there"
 _AXES = {letter: np.eye(3)[k] for k, letter in enumerate("xyz")}
 
 
@@ -33,6 +38,11 @@ class Source:
     path: Path
     compiler: Mapping[str, str]
     classes: Mapping[str, Mapping[str, Mapping[str, str]]]
+
+    @cached_property
+    def places(self) -> Mapping[Element, int]:
+        """Each body's place in the file."""
+        return {body: k for k, body in enumerate(self.root.iter("body"))}
 
     def error(
         self, what: str, element: Element, value: object = None, cure: str | None = None
@@ -84,6 +94,8 @@ class Source:
             values = [math.nan]
         if not all(map(math.isfinite, values)):
             raise self.error(f"{key} is not a list of finite numbers", element, text, "give plain numbers")
+        if key not in _WIDE and any(abs(value) > HUGE for value in values):
+            raise self.error(f"{key} is too large to be meant", element, text, "give m, kg, N or rad")
         if count is not None and len(values) != count:
             raise self.error(f"{key} needs {count} numbers", element, text, "mend it")
         return values
@@ -96,6 +108,8 @@ class Source:
         """(3, 3) of quat, axisangle, xyaxes, zaxis or euler."""
         if self.get(element, "quat"):
             w, x, y, z = self.numbers(element, "quat", count=4)
+            if math.hypot(w, x, y, z) < TINY:
+                raise self.error("quat is zero", element, self.get(element, "quat"), "1 0 0 0 turns nothing")
             turned: Array = pin.Quaternion(w, x, y, z).normalized().toRotationMatrix()
             return turned
         if self.get(element, "axisangle"):
@@ -143,11 +157,20 @@ def read(text: str, path: Path) -> Source:
     Raises:
         DescriptionError: not XML, an include that is not there, or a setting that is not supported.
     """
-    root = _parsed(text, path)
+    root = parse_xml(text, path, _CURE)
     _include(root, path, 0)
     compiler: dict[str, str] = {}
     for element in root.iterfind("compiler"):
         compiler.update(element.attrib)
+    order = compiler.get("eulerseq", "xyz")
+    if len(order) != 3 or not set(order) <= set("xyzXYZ"):
+        raise DescriptionError(
+            "eulerseq is not three of x, y, z",
+            file=path,
+            element="<compiler>",
+            value=order,
+            cure="write xyz; capitals turn about fixed axes",
+        )
     if compiler.get("coordinate", "local") != "local":
         raise DescriptionError(
             "global coordinates", file=path, element="<compiler>", cure="save it with local ones"
@@ -156,16 +179,6 @@ def read(text: str, path: Path) -> Source:
     for element in root.iterfind("default"):
         _collect(element, str(element.get("class") or "main"), classes["main"], classes)
     return Source(root, path, compiler, classes)
-
-
-def _parsed(text: str, path: Path) -> Element:
-    from lxml import etree
-
-    parser = etree.XMLParser(remove_comments=True, remove_pis=True, resolve_entities=False, no_network=True)
-    try:
-        return etree.fromstring(text.encode("utf-8"), parser)
-    except etree.XMLSyntaxError as problem:
-        raise DescriptionError(f"not XML: {problem.msg}", file=path, cure="mend it there") from problem
 
 
 def _include(root: Element, path: Path, depth: int) -> None:
@@ -185,7 +198,7 @@ def _include(root: Element, path: Path, depth: int) -> None:
                 value=name,
                 cure="put it there, or remove the include",
             ) from error
-        inside = _parsed(text, path.parent / name)
+        inside = parse_xml(text, path.parent / name, _CURE)
         _include(inside, path, depth + 1)
         above = element.getparent()
         place = list(above).index(element)

@@ -19,7 +19,7 @@ _TYPES = {"hinge": "revolute", "slide": "prismatic"}
 
 def body_name(source: Source, body: Element) -> str:
     """A body's name; `body_3`, by its place in the file, where it has none."""
-    return str(body.get("name") or f"body_{list(source.root.iter('body')).index(body)}")
+    return str(body.get("name") or f"body_{source.places[body]}")
 
 
 def joint_name(source: Source, joint: Element) -> str:
@@ -198,6 +198,8 @@ def _inertia(source: Source, body: Element, geoms: list[Geom]) -> pin.Inertia:
             total = total + inertia_of(source, geom)
         return total
     mass = source.numbers(stated, "mass", "0", 1)[0]
+    if mass < 0:
+        raise source.error("negative mass", stated, mass, "give its mass in kg")
     full = source.numbers(stated, "fullinertia")
     if full:
         xx, yy, zz, xy, xz, yz = source.numbers(stated, "fullinertia", count=6)

@@ -6,7 +6,7 @@ import re
 from collections.abc import Collection
 
 from rover_pin.description.couplings import as_coupling
-from rover_pin.description.starter.subject import Guess, Subject, flow
+from rover_pin.description.starter.subject import Guess, Subject, flow, flow_value
 
 PASSIVE = re.compile(
     r"rocker|bogie|differential|suspension|susp(?![a-z])|caster|castor|pivot|passive|spring", re.I
@@ -38,7 +38,7 @@ def guess_passive(subject: Subject, drives: Collection[str]) -> Guess | None:
     reasons = [*(["names"] if named else []), *(["an effort limit of 0"] if weak else [])]
     chosen = [name for name in subject.rover.joints if name in (*named, *weak)]
     reason = " and ".join(reasons) or "no name and no effort limit of 0 says that a joint hangs free"
-    return Guess("passive", "[" + ", ".join(chosen) + "]", f"{reason}; all else is then driven")
+    return Guess("passive", flow_value(chosen), f"{reason}; all else is then driven")
 
 
 def stated_couplings(subject: Subject) -> list[Guess]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -19,6 +21,9 @@ from rover_pin.description.tree import Tree, parse
 from rover_pin.numerics import Array
 from rover_pin.rover import Rover
 
+_PLAIN = re.compile(r"[A-Za-z_][\w./-]*", re.ASCII)
+_WORDS = frozenset({"y", "n", "yes", "no", "on", "off", "true", "false", "null"})  # no names to YAML
+
 
 @dataclass(frozen=True)
 class Guess:
@@ -28,11 +33,13 @@ class Guess:
         key: where it goes: `wheels`, `passive`, ...
         line: YAML, an entry of the key's list or its whole value.
         reason: what it rests on.
+        link: the wheel's or foot's, else empty.
     """
 
     key: str
     line: str
     reason: str
+    link: str = ""
 
 
 @dataclass(frozen=True)
@@ -99,17 +106,16 @@ class Subject:
 
 def flow(mapping: Mapping[str, object]) -> str:
     """`{a: 1, b: [0, 1, 0]}`."""
-    return "{" + ", ".join(f"{key}: {_value(value)}" for key, value in mapping.items()) + "}"
+    return "{" + ", ".join(f"{flow_value(key)}: {flow_value(value)}" for key, value in mapping.items()) + "}"
 
 
-def _value(value: object) -> str:
+def flow_value(value: object) -> str:
+    """A number, name, list or mapping in YAML's flow style; names that YAML may misread in quotes."""
     if isinstance(value, Mapping):
         return flow(value)
     if isinstance(value, (list, tuple, np.ndarray)):
-        return "[" + ", ".join(_value(each) for each in value) + "]"
+        return "[" + ", ".join(flow_value(each) for each in value) + "]"
     if isinstance(value, float):
         return f"{round(value, 6) + 0.0:.6g}"
     text = str(value)
-    return (
-        text if text and all(c.isalnum() or c in "_-./" for c in text) and text[0].isalpha() else f'"{text}"'
-    )
+    return text if _PLAIN.fullmatch(text) and text.lower() not in _WORDS else json.dumps(text)

@@ -13,7 +13,7 @@ from rover_pin.description.starter.subject import Guess, Subject, flow
 from rover_pin.numerics import Array
 
 WHEEL = re.compile(r"wheel|tire|tyre|roue|ruota|rueda", re.IGNORECASE)
-FOOT = re.compile(r"foot|feet|toe(?![a-z])|caster|castor", re.IGNORECASE)
+FOOT = re.compile(r"foot(?!print)|feet|toe(?![a-z])|caster|castor", re.IGNORECASE)
 ROUND = 0.03  # by how much a wheel's mesh may be wider one way than the other
 OFF_AXIS = 0.005  # m from a shape's centre to the joint's axis
 LEVEL = 0.2  # sine of the slope that a wheel's axis may have at zero
@@ -56,12 +56,13 @@ def guess_wheels(subject: Subject) -> tuple[list[Guess], list[str]]:
     return [_as_guess(subject, *each) for each in _standing(subject, found, bool(mute))], mute
 
 
-def guess_feet(subject: Subject, wheels: list[Guess]) -> list[Guess]:
-    """Ball feet: links named like feet or casters with a sphere, and that are no wheel."""
-    taken = " ".join(guess.line for guess in wheels)
-    guesses = []
-    for link, shapes in subject.shapes.items():
-        if not (FOOT.search(link) or WHEEL.search(link)) or f"frame: {link}," in taken:
+def guess_feet(subject: Subject, wheels: list[Guess]) -> tuple[list[Guess], list[str]]:
+    """Ball feet: links named like feet or casters with a sphere, no wheels; else those without one."""
+    taken = {guess.link for guess in wheels}
+    guesses, flat = [], []
+    for link in subject.made.tree.links:
+        shapes = subject.shapes.get(link, ())
+        if not (FOOT.search(link) or WHEEL.search(link)) or link in taken:
             continue
         ball = next((s for s in shapes if s.kind == "sphere"), None)
         if ball is not None:
@@ -72,8 +73,10 @@ def guess_feet(subject: Subject, wheels: list[Guess]) -> list[Guess]:
                 "radius": ball.size[0],
                 **_friction(subject, link),
             }
-            guesses.append(Guess("contacts", flow(said), "its name, and a sphere"))
-    return guesses
+            guesses.append(Guess("contacts", flow(said), "its name, and a sphere", link))
+        elif FOOT.search(link):
+            flat.append(link)
+    return guesses, [] if wheels or guesses else flat
 
 
 def _endless(subject: Subject, joint: str) -> bool:
@@ -105,7 +108,7 @@ def _as_guess(subject: Subject, link: str, shape: Round, reasons: list[str]) -> 
     if np.abs(shape.center).max() > 1e-6:
         said["center"] = shape.center.tolist()
     said |= {"radius": shape.radius, "width": shape.width, **_friction(subject, link)}
-    return Guess("wheels", flow(said), ", ".join(reasons))
+    return Guess("wheels", flow(said), ", ".join(reasons), link)
 
 
 def _friction(subject: Subject, link: str) -> dict[str, object]:

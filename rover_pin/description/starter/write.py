@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from collections.abc import Sequence
@@ -15,7 +16,7 @@ from rover_pin.description.starter.joints import (
     stated_couplings,
 )
 from rover_pin.description.starter.loops import guess_loops
-from rover_pin.description.starter.subject import Guess, Subject, flow
+from rover_pin.description.starter.subject import Guess, Subject, flow, flow_value
 from rover_pin.description.starter.wheels import guess_feet, guess_wheels
 from rover_pin.rover import Rover
 
@@ -65,9 +66,9 @@ def start(rover: Rover, folder: Path) -> Start:
     """
     subject = Subject(rover)
     wheels, mute = guess_wheels(subject)
-    feet = guess_feet(subject, wheels)
+    feet, flat = guess_feet(subject, wheels)
     loops, odd = guess_loops(subject)
-    links = {guess.line.removeprefix("{frame: ").split(",")[0] for guess in wheels}
+    links = {guess.link for guess in wheels}
     drives = [joint for link in links if (joint := subject.made.tree.joint_above(link)) in rover.joints]
     differential, passive = guess_differential(subject), guess_passive(subject, drives)
     guesses = [
@@ -82,7 +83,11 @@ def start(rover: Rover, folder: Path) -> Start:
         *_home(rover, drives),
         *_parameters(rover.source),
     ]
-    words = [*(f"link {link} is named like a wheel, but no shape tells its radius" for link in mute), *odd]
+    words = [
+        *(f"link {link} is named like a wheel, but no shape tells its radius" for link in mute),
+        *(f"link {link} is named like a foot, but no sphere tells its radius" for link in flat),
+        *odd,
+    ]
     said = stated_actuation(subject)
     if said is not None:
         words.append(f"{said} says what is driven: {', '.join(rover.actuated) or 'nothing that moves'}")
@@ -137,7 +142,7 @@ def _robot_yaml(source: Path, folder: Path) -> str | None:
 def _up(subject: Subject, wheels: Sequence[Guess]) -> list[Guess]:
     import pinocchio as pin
 
-    links = [guess.line.removeprefix("{frame: ").split(",")[0] for guess in wheels]
+    links = [guess.link for guess in wheels]
     if not links:
         return []
     model = subject.rover.model
@@ -149,10 +154,19 @@ def _up(subject: Subject, wheels: Sequence[Guess]) -> list[Guess]:
 
 
 def _home(rover: Rover, drives: Sequence[str]) -> list[Guess]:
-    values = {name: float(rover.neutral[rover.column[name]]) for name in rover.joints if name not in drives}
+    values = {name: _within(rover, rover.column[name]) for name in rover.joints if name not in drives}
     if not values or len(values) > 40:
         return []
     return [Guess("postures", flow({"home": values}), "zero, or the limit nearest to it")]
+
+
+def _within(rover: Rover, k: int) -> float:
+    """A joint's neutral place as it will be written, rounded to the inside where it is one of its limits."""
+    value = float(rover.neutral[k])
+    if rover.lower[k] <= float(flow_value(value)) <= rover.upper[k]:
+        return value
+    scale = 10.0 ** min(6, 5 - math.floor(math.log10(abs(value))))
+    return math.copysign(math.ceil(abs(value) * scale) / scale, value)  # the inside lies away from zero
 
 
 def _parameters(source: Path) -> list[Guess]:

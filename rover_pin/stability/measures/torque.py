@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from rover_pin.stability.margin import Margin
 from rover_pin.stability.measure import Measure, Standing
 from rover_pin.statics.distribute import smallest_torque
+
+if TYPE_CHECKING:
+    from rover_pin.rover import Rover
 
 
 def evaluate(standing: Standing) -> Margin:
@@ -25,4 +30,10 @@ def evaluate(standing: Standing) -> Margin:
     return MEASURE.margin({w: abs(forces.torques[w]) for w in driven}, friction=forces.friction)
 
 
-MEASURE = Measure("torque", "N m", "low", 1.7, evaluate)
+def missing(rover: Rover) -> str:
+    """What the rover lacks, or nothing."""
+    driven = any(wheel.drive is not None and not wheel.free for wheel in rover.wheels)
+    return "" if driven else f"no wheel of {rover.name} is driven"
+
+
+MEASURE = Measure("torque", "N m", "low", 1.7, evaluate, missing)

@@ -44,6 +44,8 @@ def _row(path: Path, number: int, content: str) -> list[float]:
     values = []
     for column, word in enumerate(content.split(delimiter), start=1):
         try:
+            if "_" in word or not word.isascii():
+                raise ValueError  # digits in groups or of other scripts, which only Python reads
             values.append(float(word))
         except ValueError:
             raise TerrainError(

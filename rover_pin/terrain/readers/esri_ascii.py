@@ -13,7 +13,8 @@ from rover_pin.terrain.readers.registry import HeightMap, reader
 
 _NEEDED = ("ncols", "nrows", "cellsize")
 _CORNERS = ("xllcorner", "xllcenter", "yllcorner", "yllcenter")
-_KEYS = (*_NEEDED, *_CORNERS, "nodata_value")
+_SIDES = ("dx", "dy")
+_KEYS = (*_SIDES, *_NEEDED, *_CORNERS, "nodata_value")
 
 
 @reader(".asc")
@@ -21,7 +22,8 @@ def read_asc(path: Path, spacing_given: bool) -> HeightMap:
     """Heights [m] with rows along +y, so the file's last row first; spacing and the first cell's centre.
 
     The format is that of ArcGIS ("Esri ASCII raster format"): `ncols`, `nrows`, `xllcorner` or `xllcenter`
-    (likewise y) of the south-west cell, `cellsize`, and `NODATA_value` where the file has it.
+    (likewise y) of the south-west cell, `cellsize` (or GDAL's `dx` and `dy`, if equal), and where the file
+    has it `NODATA_value`.
 
     Raises:
         TerrainError: a header that is incomplete, heights that are too few or too many or no numbers (with
@@ -65,6 +67,16 @@ def _header(path: Path, lines: list[str]) -> tuple[dict[str, float], int]:
 
 
 def _complete(path: Path, header: dict[str, float]) -> dict[str, float]:
+    if "cellsize" not in header and all(key in header for key in _SIDES):
+        if not math.isclose(header["dx"], header["dy"], rel_tol=1e-6):
+            raise TerrainError(
+                "cells that are not square",
+                file=path,
+                element="dx, dy",
+                value=f"{header['dx']:g} x {header['dy']:g}",
+                cure="resample to square cells",
+            )
+        header["cellsize"] = header["dx"]
     for key in _NEEDED:
         if key not in header:
             raise TerrainError(
@@ -91,6 +103,8 @@ def _body(
     for i in range(start, len(lines)):
         words = lines[i].split()
         try:
+            if "_" in lines[i] or not lines[i].isascii():
+                raise ValueError  # digits in groups or of other scripts, which only Python reads
             values += map(float, words)
         except ValueError:
             for column, word in enumerate(words, start=1):
@@ -113,11 +127,12 @@ def _centre(header: dict[str, float], axis: str, cell: float) -> float:
 
 def _number(path: Path, where: str, word: str, *, finite: bool = True) -> float:
     try:
+        if "_" in word or not word.isascii():
+            raise ValueError
         value = float(word)
     except ValueError:
-        raise TerrainError(
-            "not a number", file=path, element=where, value=word, cure="write a number"
-        ) from None
+        cure = "write a point for the decimal mark" if "," in word else "write a number"
+        raise TerrainError("not a number", file=path, element=where, value=word, cure=cure) from None
     if finite and not math.isfinite(value):
         raise TerrainError("not finite", file=path, element=where, value=word, cure="write a finite number")
     return value

@@ -19,5 +19,7 @@ def read_npy(path: Path, spacing_given: bool) -> HeightMap:
     """
     try:
         return HeightMap(np.load(path, allow_pickle=False))
-    except (ValueError, EOFError) as error:
+    except OSError:
+        raise
+    except Exception as error:  # numpy's tokenizer and its allocation raise many kinds on damaged files
         raise TerrainError("cannot be read as .npy", file=path, value=str(error)) from error

@@ -30,7 +30,9 @@ def read_png(path: Path, spacing_given: bool) -> HeightMap:
             mode = picture.mode
             levels = np.array(picture) if mode in _GREY else None
     except UnidentifiedImageError as error:
-        raise TerrainError("cannot be read as PNG", file=path, value="no PNG at its beginning") from error
+        raise TerrainError(
+            "cannot be read as PNG", file=path, value="no PNG, or damaged at its beginning"
+        ) from error
     except (SyntaxError, ValueError, EOFError, struct.error) as error:
         raise TerrainError("cannot be read as PNG", file=path, value=str(error)) from error
     except Image.DecompressionBombError as error:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import logging
 import math
 from pathlib import Path
@@ -15,6 +16,8 @@ from rover_pin.terrain.readers.registry import HeightMap, reader
 
 _GEOGRAPHIC = 2
 _METRE = 9001
+_PAGES = 64  # looked at; a damaged file may have as many as it has bytes
+_BYTES = 1 << 32  # of heights; a damaged file may state any size
 
 
 @reader(".tif", ".tiff")
@@ -34,7 +37,9 @@ def read_tiff(path: Path, spacing_given: bool) -> HeightMap:
     try:
         with tifffile.TiffFile(path) as file:
             page: Any = file.pages[0]
-            full = [p for p in file.pages if not _is_overview(p)]
+            full = [p for p in itertools.islice(file.pages, _PAGES) if not _is_overview(p)]
+            if page.nbytes > _BYTES:
+                raise ValueError(f"{page.nbytes} bytes of heights, more than {_BYTES}")
             heights = page.asarray()
             tags = {
                 name: page.tags[name].value

@@ -1,6 +1,7 @@
 /* The study's columns, decoded when they are first asked for. */
-
-const [NOTHING, PLUS, MINUS] = [65535, 65534, 65533];
+import { MINUS, NOTHING, PLUS } from "./codes.js";
+import { orderOf } from "./order.js";
+import { Spread } from "./spread.js";
 
 function unplane(bytes, size) {
   const count = bytes.length / size;
@@ -15,6 +16,11 @@ function unplane(bytes, size) {
 /** Values of byte planes: `type` is a typed array's class. */
 export function unplaned(bytes, type) {
   return new type(unplane(bytes, type.BYTES_PER_ELEMENT));
+}
+
+function valueOf({ low, step }, code) {
+  if (code < MINUS) return low + step * code;
+  return { [NOTHING]: NaN, [PLUS]: Infinity, [MINUS]: -Infinity }[code];
 }
 
 export class Cases {
@@ -32,37 +38,37 @@ export class Cases {
     return name in this.header.columns;
   }
 
-  /** All values of a column: numbers (SI), or for words their numbers. */
-  column(name) {
-    if (this.known.has(name)) return this.known.get(name);
-    const about = this.header.columns[name];
-    const bytes = this.segments.get(`column/${name}`);
-    let values;
-    if (about.kind === "f32") values = unplaned(bytes, Float32Array);
-    else {
-      const codes = unplaned(bytes, Uint16Array);
-      values = codes;
-      if (about.kind === "u16") {
-        values = new Float64Array(codes.length);
-        for (let i = 0; i < codes.length; i++) {
-          const code = codes[i];
-          if (code === NOTHING) values[i] = NaN;
-          else if (code === PLUS) values[i] = Infinity;
-          else if (code === MINUS) values[i] = -Infinity;
-          else values[i] = about.low + about.step * code;
-        }
-      }
-    }
-    this.known.set(name, values);
-    return values;
+  kept(key, make) {
+    if (!this.known.has(key)) this.known.set(key, make());
+    return this.known.get(key);
   }
 
-  /** A number, a word, or NaN where there is no such column. */
+  /** The 16-bit codes of a column of kind `u16` or `words` (kept). */
+  codes(name) {
+    return this.kept(`codes of ${name}`, () => unplaned(this.segments.get(`column/${name}`), Uint16Array));
+  }
+
+  /** All values of a column: numbers (SI), or for words their numbers (kept). */
+  column(name) {
+    const about = this.header.columns[name];
+    if (about.kind === "words") return this.codes(name);
+    return this.kept(name, () => {
+      if (about.kind === "f32") return unplaned(this.segments.get(`column/${name}`), Float32Array);
+      const codes = this.codes(name);
+      const values = new Float64Array(codes.length);
+      for (let i = 0; i < codes.length; i++) values[i] = codes[i] < MINUS ? about.low + about.step * codes[i] : valueOf(about, codes[i]);
+      return values;
+    });
+  }
+
+  /** A number, a word, or NaN where there is no such column; decodes no more than this value. */
   at(name, i) {
     const about = this.header.columns[name];
     if (!about) return NaN;
-    const value = this.column(name)[i];
-    return about.kind === "words" ? about.words[value] : value;
+    if (about.kind === "f32") return this.column(name)[i];
+    const bytes = this.segments.get(`column/${name}`);
+    const code = bytes[i] | (bytes[this.count + i] << 8);
+    return about.kind === "words" ? about.words[code] : valueOf(about, code);
   }
 
   wordNumber(name, word) {
@@ -79,54 +85,33 @@ export class Cases {
     return about.kind === "u16" && about.rounding === 0;
   }
 
-  /** How much worse first: negative where a is worse than b; what has no value comes last. */
-  worseFirst(name) {
-    const values = this.column(name);
-    const sign = this.measure.get(name)?.better === "low" ? -1 : 1;
-    return (a, b) => {
-      const [x, y] = [values[a], values[b]];
-      const [none, other] = [Number.isNaN(x) || !this.settled(a), Number.isNaN(y) || !this.settled(b)];
-      if (none || other) return none - other || a - b;
-      return x === y ? a - b : sign * (x - y);
-    };
+  /** {order, known}: all case numbers, the worst of a measure or the least of a column first (kept);
+   *  the first `known` have a value, the rest have none. */
+  order(name) {
+    return this.kept(`order of ${name}`, () => orderOf(this, name));
   }
 
-  /** All case numbers, the worst of a measure first (kept). */
-  order(name) {
-    const key = `order of ${name}`;
-    if (!this.known.has(key)) {
-      const all = Uint32Array.from({ length: this.count }, (_, i) => i);
-      this.known.set(key, all.sort(this.worseFirst(name)));
-    }
-    return this.known.get(key);
+  /** How the settled cases spread (kept). */
+  spread(name) {
+    return this.kept(`spread of ${name}`, () => new Spread(this, name, null));
   }
 
   /** Sorted finite values of the settled cases (kept). */
   sorted(name) {
-    const key = `sorted ${name}`;
-    if (!this.known.has(key)) {
+    return this.kept(`sorted ${name}`, () => {
       const values = this.column(name);
-      const kept = [];
-      for (let i = 0; i < this.count; i++) if (this.settled(i) && Number.isFinite(values[i])) kept.push(values[i]);
-      this.known.set(key, Float64Array.from(kept).sort());
-    }
-    return this.known.get(key);
+      const finite = [];
+      for (let i = 0; i < this.count; i++) if (this.settled(i) && Number.isFinite(values[i])) finite.push(values[i]);
+      return Float64Array.from(finite).sort();
+    });
   }
 
   quantile(name, q) {
-    const all = this.sorted(name);
-    return all.length ? all[Math.min(all.length - 1, Math.floor(q * all.length))] : NaN;
+    return this.spread(name).quantile(q);
   }
 
   /** Share of the settled cases with less than this value, in per cent. */
   percentile(name, value) {
-    const all = this.sorted(name);
-    let [low, high] = [0, all.length];
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (all[middle] < value) low = middle + 1;
-      else high = middle;
-    }
-    return all.length ? (100 * low) / all.length : NaN;
+    return this.spread(name).percentile(value);
   }
 }

@@ -1,5 +1,5 @@
 /* The chosen case in words: margins with their place in the study, loads, pose. */
-import { byId, element, fixed, number } from "./format.js";
+import { byId, element, fixed, inUnit, number } from "./format.js";
 import { loadBars } from "./bars.js";
 
 /** What limits a case by a measure: an edge, wheel, joint or link; empty where it does not say. */
@@ -16,6 +16,7 @@ function said(state, i) {
   if (why && why !== "None") parts.push(why);
   const limit = limitingOf(cases, measure.name, i);
   if (limit && cases.settled(i)) parts.push(`${measure.title.toLowerCase()} limited by ${limit}`);
+  if (!state.selection.mask[i]) parts.push("left out by the filter");
   return parts.join(" · ");
 }
 
@@ -28,7 +29,7 @@ export function showDetails(state, lightest) {
     ...cases.measures.map((m) => {
       const value = cases.at(m.name, chosen);
       const place = Number.isFinite(value) ? `p${Math.round(cases.percentile(m.name, value))}` : "";
-      const row = element("tr", "", null, element("td", "", m.title), element("td", "value", number(value * m.factor)), element("td", "unit", `${m.unit} ${place}`));
+      const row = element("tr", "", null, element("td", "", m.title), element("td", "value", inUnit(m, value)), element("td", "unit", `${m.unit} ${place}`));
       row.title = `better: ${m.better}`;
       return row;
     }),

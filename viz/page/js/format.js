@@ -12,6 +12,11 @@ export function number(value, digits = 3) {
   return fixed(value, decimals);
 }
 
+/** A measure's value (SI) in its unit; counts have no decimals. */
+export function inUnit(measure, value) {
+  return measure.whole && Number.isFinite(value) ? fixed(value * measure.factor, 0) : number(value * measure.factor);
+}
+
 /** A number with so many decimals. */
 export function fixed(value, decimals) {
   if (!Number.isFinite(value)) return number(value);

@@ -1,5 +1,5 @@
 /* The ground in 3D: one mesh, close-meshed at the rover and wide away from it, painted like the map. */
-import { paintCells, paintContours } from "./map.js";
+import { paintCells, paintContours, plainContext } from "./map.js";
 
 const SIDE = 90;
 const SAND = "#cbc1af";
@@ -75,7 +75,7 @@ export class Landscape {
   /** Paint sand, the map's cells where wanted, and contours. */
   paint({ cells, values, scale }, coloured) {
     const { ground, canvas } = this;
-    const context = canvas.getContext("2d");
+    const context = plainContext(canvas);
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.fillStyle = SAND;
     context.fillRect(0, 0, canvas.width, canvas.height);

@@ -1,48 +1,13 @@
 /* The map: cells coloured by the worst, median or best of their cases; crosses where there is no answer. */
-import { fixed, nice, number, ticks, decimalsFor } from "./format.js";
+import { fixed, inUnit, nice, ticks, decimalsFor } from "./format.js";
 
 const MARGIN = { left: 46, right: 10, top: 8, bottom: 34 };
 
-/** Cells that just cover the cases: {wide, tall, nx, ny, x0, y0, members: list of case numbers per cell}. */
-export function cellsOf(cases) {
-  const [x, y] = [cases.column("x_m"), cases.column("y_m")];
-  let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
-  for (let i = 0; i < cases.count; i++) {
-    [x0, x1] = [Math.min(x0, x[i]), Math.max(x1, x[i])];
-    [y0, y1] = [Math.min(y0, y[i]), Math.max(y1, y[i])];
-  }
-  const area = Math.max((x1 - x0) * (y1 - y0), 1e-6);
-  const wanted = Math.min(cases.count / 5, 4000);
-  const size = Math.max(Math.sqrt(area / Math.max(wanted, 1)), Math.max(x1 - x0, y1 - y0) / 160, 1e-3);
-  const nx = Math.max(1, Math.round((x1 - x0) / size));
-  const ny = Math.max(1, Math.round((y1 - y0) / size));
-  const [wide, tall] = [(x1 - x0) / nx || size, (y1 - y0) / ny || size];
-  const members = Array.from({ length: nx * ny }, () => []);
-  for (let i = 0; i < cases.count; i++) {
-    const column = Math.min(nx - 1, Math.floor((x[i] - x0) / wide));
-    members[Math.min(ny - 1, Math.floor((y[i] - y0) / tall)) * nx + column].push(i);
-  }
-  return { wide, tall, nx, ny, x0, y0, members };
-}
-
-/** One value a cell: NaN where no case of it has an answer. */
-export function cellValues(cases, cells, measure, statistic) {
-  const values = cases.column(measure.name);
-  const sign = measure.better === "low" ? -1 : 1;
-  return cells.members.map((members) => {
-    const known = members.filter((i) => cases.settled(i) && !Number.isNaN(values[i])).map((i) => sign * values[i]);
-    if (!known.length) return NaN;
-    known.sort((a, b) => a - b);
-    const place = { worst: 0, median: (known.length - 1) >> 1, best: known.length - 1 }[statistic];
-    return sign * known[place];
-  });
-}
-
 /** Paint cells and contours with the context's transform in metres, y up. */
 export function paintCells(context, cells, values, scale, { pixel, alpha = 1 }) {
-  const { wide, tall } = cells;
+  const { wide, tall, shown } = cells;
   for (let k = 0; k < values.length; k++) {
-    if (!cells.members[k].length) continue;
+    if (!shown[k]) continue;
     const x = cells.x0 + (k % cells.nx) * wide;
     const y = cells.y0 + Math.floor(k / cells.nx) * tall;
     const none = Number.isNaN(values[k]);
@@ -70,6 +35,11 @@ export function paintContours(context, ground, width, colour) {
   context.lineWidth = width;
   context.strokeStyle = colour;
   context.stroke(ground.contours());
+}
+
+/** A canvas's context that draws on the processor: a path as long as the contours takes a software GPU ten seconds. */
+export function plainContext(canvas) {
+  return canvas.getContext("2d", { willReadFrequently: true });
 }
 
 export class MapView {
@@ -102,7 +72,7 @@ export class MapView {
     const { ground, cells, values, scale } = this.state;
     const { w, h, k, ratio, px, py } = this.view;
     if (w < 60 || h < 60) return;
-    const context = this.canvas.getContext("2d");
+    const context = plainContext(this.canvas);
     const frame = [px(ground.x0), py(ground.y1), k * (ground.x1 - ground.x0), k * (ground.y1 - ground.y0)];
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, w, h);
@@ -111,12 +81,32 @@ export class MapView {
     context.save();
     context.setTransform(ratio * k, 0, 0, -ratio * k, ratio * px(0), ratio * py(0));
     paintCells(context, cells, values, scale, { pixel: 1 / k });
-    paintContours(context, ground, 0.7 / k, "rgba(40, 48, 56, 0.36)");
+    this.contours(context);
     this.footprint(context, 1 / k);
     context.restore();
     context.strokeStyle = "#9aa6b2";
     context.strokeRect(...frame);
     this.axes(context);
+    if (!this.state.selection.count) message(context, "No case passes the filter: clear it to see them again.", w / 2, h / 2);
+  }
+
+  /** The contours, drawn once a size. */
+  contours(context) {
+    const { width, height } = this.canvas;
+    const transform = context.getTransform();
+    const key = `${width} ${height} ${transform}`;
+    if (this.lines?.key !== key) {
+      const canvas = document.createElement("canvas");
+      Object.assign(canvas, { width, height });
+      const own = plainContext(canvas);
+      own.setTransform(transform);
+      paintContours(own, this.state.ground, 0.7 / this.view.k, "rgba(40, 48, 56, 0.36)");
+      this.lines = { key, canvas };
+    }
+    context.save();
+    context.resetTransform();
+    context.drawImage(this.lines.canvas, 0, 0);
+    context.restore();
   }
 
   axes(context) {
@@ -186,26 +176,34 @@ export class MapView {
     return i >= 0 && j >= 0 && i < cells.nx && j < cells.ny ? j * cells.nx + i : null;
   }
 
-  /** Choose the cell's worst case. */
+  /** Choose the case that the cell shows. */
   pick(event) {
-    const { cells, cases, measure, choose } = this.state;
     const cell = this.cellAt(event);
-    if (cell === null || !cells.members[cell].length) return;
-    choose([...cells.members[cell]].sort(cases.worseFirst(measure.name))[0]);
+    if (cell !== null && this.state.cells.picks[cell] >= 0) this.state.choose(this.state.cells.picks[cell]);
   }
 
   hover(event) {
     const { cells, values, measure, statistic } = this.state;
     const cell = this.cellAt(event);
-    const members = cell === null ? [] : cells.members[cell];
-    this.tip.hidden = !members.length;
-    if (!members.length) return;
-    const value = Number.isNaN(values[cell]) ? "no answer" : `${statistic} ${number(values[cell] * measure.factor)} ${measure.unit}`;
-    this.tip.textContent = `${value} · ${members.length} case${members.length > 1 ? "s" : ""}`;
+    const count = cell === null ? 0 : cells.shown[cell];
+    this.tip.hidden = !count;
+    if (!count) return;
+    const value = Number.isNaN(values[cell]) ? "no answer" : `${statistic} ${inUnit(measure, values[cell])} ${measure.unit}`;
+    this.tip.textContent = `${value} · ${fixed(count, 0)} case${count > 1 ? "s" : ""}`;
     const box = this.canvas.getBoundingClientRect();
     this.tip.style.left = `${Math.min(event.clientX - box.left + 12, this.view.w - this.tip.offsetWidth - 4)}px`;
     this.tip.style.top = `${event.clientY - box.top + 14}px`;
   }
+}
+
+function message(context, text, x, y) {
+  context.font = "13px system-ui, sans-serif";
+  context.textAlign = "center";
+  const wide = context.measureText(text).width + 24;
+  context.fillStyle = "rgba(255, 255, 255, .92)";
+  context.fillRect(x - wide / 2, y - 18, wide, 30);
+  context.fillStyle = "#1d242c";
+  context.fillText(text, x, y + 2);
 }
 
 function line(context, x0, y0, x1, y1) {

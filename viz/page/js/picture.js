@@ -74,8 +74,8 @@ export class Picture {
     this.landscape.around(com[0], com[1], robot.span);
     const drawn = (this.drawn = this.inside.draw(robot, cases, chosen, (x, y) => ground.at(x, y)[0]));
     tellInside(drawn);
-    const { middle, radius } = this.view.extent([robot.all]);
-    this.view.reach = radius;
+    const { middle, corners } = this.view.extent([robot.all]);
+    this.view.corners = corners;
     this.view.follow([com[0], com[1], middle[2]], cases.at("yaw_rad", chosen), robot.span);
     if (first) this.view.look("Iso", 2.1);
     const limiting = [measure.name, "tip", "polygon"].map((name) => limitingOf(cases, name, chosen));

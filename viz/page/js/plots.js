@@ -1,118 +1,168 @@
-/* Histograms of every measure, and how each wheel's load spreads over the study. */
+/* Histograms of every measure: a drag keeps a range of it, in all that the page shows. */
 import { sized } from "./canvas.js";
-import { byId, element, fixed, number } from "./format.js";
+import { element, inUnit, number } from "./format.js";
+import { Spread } from "./spread.js";
 
 const BINS = 48;
+const LEAST = 4; // px of a drag; less is a click, which takes the range away
 
 export class Plots {
   constructor(holder, state) {
     Object.assign(this, { holder, state });
-    this.rows = state.cases.measures.map((measure) => this.row(measure));
-    this.loads = byId("study-loads");
-    holder.replaceChildren(...this.rows.map((row) => row.box));
-    new ResizeObserver(() => this.spread()).observe(this.loads);
+    const one = (measure) => state.cases.spread(measure.name).least === state.cases.spread(measure.name).most;
+    this.alike = state.cases.measures.filter(one);
+    this.rows = state.cases.measures.filter((measure) => !one(measure)).map((measure) => this.row(measure));
+    this.foot = element("div", "foot dim");
+    holder.replaceChildren(...this.rows.map((row) => row.box), this.foot);
+    this.respread();
     new ResizeObserver(() => this.draw()).observe(holder);
   }
 
   row(measure) {
     const canvas = element("canvas");
+    canvas.dataset.measure = measure.name;
+    canvas.title = "Drag to keep a range; click to let it go";
     const title = element("button", "name", `${measure.title} [${measure.unit}]`);
     title.type = "button";
     title.title = `Colour the map by it. Better: ${measure.better}`;
     title.addEventListener("click", () => this.state.colourBy(measure.name));
-    const { cases } = this.state;
-    const say = (q) => number(cases.quantile(measure.name, q) * measure.factor);
-    const figures = element("span", "dim", `p5 ${say(0.05)} · p50 ${say(0.5)}`);
-    const ends = [element("span"), element("span")];
-    const box = element("div", "plot", null, element("div", "head", null, title, figures), canvas, element("div", "ends dim", null, ...ends));
-    return { measure, canvas, box, ends, title };
+    const figures = element("span", "dim");
+    const ends = [element("span"), element("button", "range"), element("span")];
+    ends[1].type = "button";
+    ends[1].title = "Let this range go";
+    ends[1].addEventListener("click", () => this.state.filter(measure.name, null));
+    const row = { measure, canvas, ends, title, figures };
+    row.box = element("div", "plot", null, element("div", "head", null, title, figures), canvas, element("div", "ends dim", null, ...ends));
+    Object.assign(row, this.window(measure.name));
+    this.drags(row);
+    return row;
+  }
+
+  /* What the histogram shows: all values, or without the last half per cent where these are far away. */
+  window(name) {
+    const all = this.state.cases.spread(name);
+    let [low, high] = [all.least, all.most];
+    const [q1, q99] = [all.quantile(0.005), all.quantile(0.995)];
+    if (high - low > 3 * (q99 - q1)) [low, high] = [q1, q99];
+    if (!(high > low)) [low, high] = [low - 0.5, high + 0.5];
+    return { low, high };
+  }
+
+  drags(row) {
+    const { canvas, measure } = row;
+    let from = null;
+    const place = (event) => event.clientX - canvas.getBoundingClientRect().left;
+    const kept = (event, done) => {
+      const [a, b] = [from, place(event)].sort((p, q) => p - q);
+      if (b - a >= LEAST) this.state.filter(measure.name, this.range(row, a, b), done);
+      else if (done) this.state.filter(measure.name, null);
+    };
+    canvas.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0 || !row.all?.length) return;
+      from = place(event);
+      canvas.setPointerCapture(event.pointerId);
+      event.preventDefault();
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (from === null || row.waits) return;
+      row.waits = requestAnimationFrame(() => {
+        row.waits = 0;
+        if (from !== null) kept(event, false);
+      });
+    });
+    canvas.addEventListener("pointerup", (event) => {
+      if (from !== null) kept(event, true);
+      from = null;
+    });
+    canvas.addEventListener("pointercancel", () => (from = null));
+  }
+
+  /* From pixels to values; a drag that leaves the plot is open on that side. */
+  range({ low, high, canvas }, a, b) {
+    const value = (x) => low + (x / canvas.clientWidth) * (high - low);
+    return [a <= 0 ? -Infinity : value(a), b >= canvas.clientWidth - 1 ? Infinity : value(b)];
+  }
+
+  /** Take in another selection: counts and quantiles of what is left. */
+  respread() {
+    const { cases, selection } = this.state;
+    for (const row of this.rows) {
+      const all = cases.spread(row.measure.name);
+      const kept = selection.active ? new Spread(cases, row.measure.name, selection.mask) : all;
+      row.all = all.total ? all.bins(row.low, row.high, BINS) : null;
+      row.kept = kept.bins(row.low, row.high, BINS);
+      const say = (q) => inUnit(row.measure, kept.quantile(q));
+      row.figures.textContent = `p5 ${say(0.05)} · p50 ${say(0.5)}`;
+    }
   }
 
   draw() {
     const width = this.holder.clientWidth - 2 * 10;
     if (width < 40) return;
-    const height = Math.max(14, Math.min(40, (this.holder.clientHeight - 24) / this.rows.length - 34));
+    const height = Math.max(14, Math.min(40, (this.holder.clientHeight - 44 - 14 * this.alike.length) / Math.max(1, this.rows.length) - 34));
     for (const row of this.rows) this.histogram(row, width, height);
-    this.spread();
+    const how = this.state.selection.active ? "grey behind: all cases, drawn to the same height" : "drag on a histogram to keep a range of it";
+    this.foot.replaceChildren(element("div", "", how), ...this.alike.map((measure) => element("div", "", this.said(measure))));
   }
 
-  histogram({ measure, canvas, ends, title }, width, height) {
-    const { cases, chosen, measure: shown, scale } = this.state;
+  /* A measure with one value has no histogram. */
+  said(measure) {
+    const value = this.state.cases.spread(measure.name).least;
+    return `${measure.title}: ${inUnit(measure, value)} ${measure.unit} in every settled case`;
+  }
+
+  histogram(row, width, height) {
+    const { measure, canvas, ends, title, low, high, all, kept } = row;
+    const { cases, chosen, measure: shown, scale, selection } = this.state;
     const context = sized(canvas, width, height);
-    const values = cases.sorted(measure.name);
     title.classList.toggle("on", shown === measure);
-    if (!values.length) {
+    ends[1].textContent = "";
+    if (!all) {
       ends[0].textContent = "no settled case has it";
       return;
     }
-    let [low, high] = [values[0], values[values.length - 1]];
-    const [q1, q99] = [cases.quantile(measure.name, 0.005), cases.quantile(measure.name, 0.995)];
-    if (high - low > 3 * (q99 - q1)) [low, high] = [q1, q99];
-    if (!(high > low)) [low, high] = [low - 0.5, high + 0.5];
-    const counts = new Uint32Array(BINS);
-    for (const value of values) {
-      const bin = Math.floor((BINS * (value - low)) / (high - low));
-      if (bin >= 0 && bin <= BINS) counts[Math.min(bin, BINS - 1)] += 1;
-    }
-    const most = Math.max(...counts);
-    const x = (value) => ((value - low) / (high - low)) * width;
-    for (let k = 0; k < BINS; k++) {
-      const tall = ((height - 2) * counts[k]) / most;
-      const middle = low + ((k + 0.5) / BINS) * (high - low);
-      context.fillStyle = shown === measure ? scale.colour(middle) : "#87929d";
-      context.fillRect((k * width) / BINS, height - 1 - tall, width / BINS - 0.6, tall);
-    }
+    const x = (value) => Math.min(width, Math.max(0, ((value - low) / (high - low)) * width));
+    const bars = (counts, colour) => {
+      const most = Math.max(...counts, 1);
+      counts.forEach((count, k) => {
+        const tall = ((height - 2) * count) / most;
+        context.fillStyle = colour(low + ((k + 0.5) / BINS) * (high - low));
+        context.fillRect((k * width) / BINS, height - 1 - tall, width / BINS - 0.6, tall);
+      });
+    };
+    if (selection.active) bars(all, () => "#dde2e6");
+    bars(kept, shown === measure ? scale.colour : () => "#87929d");
     context.fillStyle = "#5d6873";
     context.fillRect(0, height - 1, width, 1);
     if (low < 0 && high > 0) context.fillRect(x(0) - 0.5, 0, 1, height);
+    const range = selection.ranges.get(measure.name);
+    if (range) brush(context, range.map(x), width, height);
     const here = chosen === null ? NaN : cases.at(measure.name, chosen);
     if (Number.isFinite(here)) {
       context.fillStyle = "#d6007f";
       context.fillRect(Math.min(width - 2.5, Math.max(0, x(here) - 1.25)), 0, 2.5, height);
     }
-    ends[0].textContent = number(low * measure.factor);
-    ends[1].textContent = number(high * measure.factor);
+    ends[0].textContent = inUnit(measure, low);
+    ends[1].textContent = range ? `${rangeSaid(range, measure)} ×` : "";
+    ends[1].hidden = !range;
+    ends[2].textContent = inUnit(measure, high);
   }
+}
 
-  /** Per wheel: 5 to 95 %, the quarters, the median; the chosen case's load. */
-  spread() {
-    const { cases, chosen } = this.state;
-    const width = this.loads.clientWidth;
-    if (width < 40) return;
-    const { wheels } = cases.header;
-    this.loads.replaceChildren();
-    if (!wheels.length) return;
-    const quantiles = wheels.map((wheel) => [0.05, 0.25, 0.5, 0.75, 0.95].map((q) => cases.quantile(`load_n/${wheel}`, q)));
-    const most = 1.05 * Math.max(...quantiles.map((q) => q[4]).filter(Number.isFinite), 1e-9);
-    const [line, left] = [13, 34];
-    const canvas = element("canvas");
-    const context = sized(canvas, width, line * wheels.length + 14);
-    const x = (value) => left + (value / most) * (width - left - 4);
-    context.font = "11px system-ui, sans-serif";
-    wheels.forEach((wheel, k) => {
-      const y = k * line + line / 2;
-      const q = quantiles[k];
-      context.fillStyle = "#1d242c";
-      context.textAlign = "left";
-      context.fillText(wheel, 0, y + 4, left - 4);
-      if (!Number.isFinite(q[2])) return;
-      context.fillStyle = "#cfd6dc";
-      context.fillRect(x(q[0]), y - 1.5, x(q[4]) - x(q[0]), 3);
-      context.fillStyle = "#87929d";
-      context.fillRect(x(q[1]), y - 4, x(q[3]) - x(q[1]), 8);
-      context.fillStyle = "#1d242c";
-      context.fillRect(x(q[2]) - 1, y - 5, 2, 10);
-      const here = chosen === null ? NaN : cases.at(`load_n/${wheel}`, chosen);
-      if (Number.isFinite(here)) {
-        context.fillStyle = "#d6007f";
-        context.fillRect(Math.min(x(here), width - 2.5) - 1.25, y - 6, 2.5, 12);
-      }
-    });
-    context.fillStyle = "#5d6873";
-    context.textAlign = "left";
-    context.fillText("0", left, line * wheels.length + 11);
-    context.textAlign = "right";
-    context.fillText(fixed(most, most < 10 ? 1 : 0), width - 2, line * wheels.length + 11);
-    this.loads.append(canvas);
-  }
+/** A range in words. */
+export function rangeSaid([low, high], measure) {
+  const [from, to] = [low, high].map((end) => number(end * measure.factor));
+  if (low === -Infinity) return `up to ${to}`;
+  return high === Infinity ? `from ${from}` : `${from} to ${to}`;
+}
+
+/* What the range leaves out is veiled, its ends are drawn. */
+function brush(context, [a, b], width, height) {
+  context.fillStyle = "rgba(255, 255, 255, .6)";
+  context.fillRect(0, 0, a, height - 1);
+  context.fillRect(b, 0, width - b, height - 1);
+  context.fillStyle = "rgba(11, 87, 164, .12)";
+  context.fillRect(a, 0, b - a, height - 1);
+  context.fillStyle = "#0b57a4";
+  for (const end of [a, b]) context.fillRect(Math.min(width - 1.5, Math.max(0, end - 0.75)), 0, 1.5, height);
 }

@@ -62,8 +62,8 @@ function draw(stance, segments) {
   view.shadowless(["loads", "support", "com"]);
   const [robot, belts, region] = ["rover", "tracks", "support/region"].map((path) => view.node(path).object);
   view.node("ground").object.traverse((thing) => (thing.castShadow = false));
-  const { middle, radius } = view.extent([robot]);
-  view.reach = radius;
+  const { middle, corners } = view.extent([robot]);
+  view.corners = corners;
   view.follow([stance.target[0], stance.target[1], middle[2]], stance.yaw, stance.span);
   const wide = () => window.innerWidth > 900;
   const look = (name) => view.look(name, 2.05, wide() ? -0.09 : 0);

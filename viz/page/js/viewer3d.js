@@ -5,6 +5,9 @@ export function cameraAxes([x, y, z]) {
   return [x, z, -y];
 }
 
+/** Parts of the picture's height and width that what is drawn may fill, beside panels and legend. */
+const FILLS = { height: 0.84, width: 0.72 };
+
 const VIEWS = { Iso: [-0.62, -0.70, 0.50], Side: [0, -1, 0.16], Front: [1, 0, 0.16], Top: [-0.001, 0, 1] };
 
 export class Viewer3d {
@@ -26,6 +29,7 @@ export class Viewer3d {
       render();
       for (const tell of this.listeners) tell();
     };
+    this.viewer.renderer.debug.checkShaderErrors = false; // asking waits for each shader
     this.setting();
     this.viewer.camera.fov = 42;
     this.viewer.camera.near = 0.02;
@@ -33,7 +37,7 @@ export class Viewer3d {
     this.viewer.set_3d_pane_size();
     this.target = [0, 0, 0];
     this.span = 1;
-    this.reach = 0;
+    this.corners = [];
     this.yaw = 0;
   }
 
@@ -88,7 +92,7 @@ export class Viewer3d {
     this.viewer.set_dirty();
   }
 
-  /** Middle (world) and radius of what is drawn under some objects. */
+  /** Middle (world) of what is drawn under some objects, and the corners of its box in the camera's axes. */
   extent(things) {
     const { THREE } = this;
     const box = new THREE.Box3();
@@ -97,8 +101,9 @@ export class Viewer3d {
       thing.updateWorldMatrix(true, true);
       box.expandByObject(thing);
     }
-    const sphere = box.getBoundingSphere(new THREE.Sphere());
-    return { middle: sphere.center.applyMatrix4(turn).toArray(), radius: sphere.radius };
+    const { min, max } = box;
+    const corners = [min, max].flatMap((a) => [min, max].flatMap((b) => [min, max].map((c) => new THREE.Vector3(a.x, b.y, c.z))));
+    return { middle: box.getCenter(new THREE.Vector3()).applyMatrix4(turn).toArray(), corners };
   }
 
   node(path) {
@@ -137,18 +142,35 @@ export class Viewer3d {
     this.sun.target.position.set(x, y, z);
   }
 
-  /** Look from one of the named sides, in the rover's heading; `distance` in spans, and never so near that what
-   * is in `reach` (m about the target) is cut; `aside` moves the picture by parts of the width. */
+  /** How far away along a unit vector (camera's axes) the camera sees all corners. */
+  clear(away) {
+    const { camera } = this.viewer;
+    const { THREE } = this;
+    const target = new THREE.Vector3(...cameraAxes(this.target));
+    const right = new THREE.Vector3(0, 1, 0).cross(away).normalize();
+    const up = away.clone().cross(right);
+    const slope = Math.tan((camera.fov * Math.PI) / 360);
+    const needs = this.corners.map((corner) => {
+      const to = corner.clone().sub(target);
+      const high = Math.abs(to.dot(up)) / FILLS.height;
+      const wide = Math.abs(to.dot(right)) / (FILLS.width * camera.aspect);
+      return to.dot(away) + Math.max(high, wide) / slope;
+    });
+    return Math.max(0, ...needs);
+  }
+
+  /** Look from one of the named sides, in the rover's heading; `distance` in spans, and never so near that one of
+   * `corners` is cut; `aside` moves the picture by parts of the width. */
   look(name, distance = 2.5, aside = 0) {
     const [x, y, z] = VIEWS[name];
-    const length = Math.hypot(x, y, z) / Math.max(distance * this.span, 2.2 * this.reach);
     const turned = this.yaw + (name === "Iso" ? 2.75 : 0);
     const [c, s] = [Math.cos(turned), Math.sin(turned)];
-    const away = cameraAxes([(c * x - s * y) / length, (s * x + c * y) / length, z / length]);
     const { camera, controls } = this.viewer;
+    const away = new this.THREE.Vector3(...cameraAxes([c * x - s * y, s * x + c * y, z])).normalize();
+    away.multiplyScalar(Math.max(distance * this.span, this.clear(away)));
     const target = new this.THREE.Vector3(...cameraAxes(this.target));
     controls.target.copy(target);
-    camera.position.copy(target).add(new this.THREE.Vector3(...away));
+    camera.position.copy(target).add(away);
     const floor = this.groundAt?.(camera.position.x, -camera.position.z) ?? -Infinity;
     camera.position.y = Math.max(camera.position.y, floor + 0.4 * this.span);
     if (aside) camera.setViewOffset(1000, 1000 / camera.aspect, 1000 * aside, 0, 1000, 1000 / camera.aspect);
