@@ -153,9 +153,8 @@ def print_largest(rover: Rover, found: LargestStep) -> None:
     else:
         line(f"{rover.name} climbs no step that was tried")
     if found.unresolved_m:
-        line(
-            f"over {1e3 * found.unresolved_m:.2g} mm of its way the solver has no answer: a peak may be missed"
-        )
+        gap = f"{1e3 * found.unresolved_m:.2g} mm"
+        line(f"over {gap} of its way the solver has no answer: a peak may be missed")
     if math.isinf(found.stopped):
         line("that is the highest that was tried: give a higher --terrain step:HEIGHT,X")
         return
