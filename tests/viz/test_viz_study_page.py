@@ -18,6 +18,7 @@ from rover_pin.analysis import Study
 from rover_pin.viz.browser import BrowserError
 from rover_pin.viz.driven import driven, open_page
 from rover_pin.viz.page.result import save_result_page
+from rover_pin.viz.page.study import save_study_page
 
 pytest.importorskip("selenium")
 from selenium.webdriver import ActionChains
@@ -302,3 +303,19 @@ def test_a_damaged_file_says_so(browser, made, tmp_path, harm, said):
     path.write_text(harm(whole), encoding="utf-8")
     open_page(browser, path)
     assert text(browser, "#loading") == f"This page cannot be shown: {said}"
+
+
+def test_where_masses_vary_the_mark_is_over_the_middle_of_the_loads(browser, tmp_path):
+    vary = {"yaw_deg": [0, 360], "payload": {"kg": [20, 60], "x": [-0.2, 0.2], "y": [-0.2, 0.2], "z": 0.3}}
+    study = Study("rocker_bogie", "flat", cases={"n": 4}, vary=vary, measures=["tip"])
+    path = tmp_path / "heavy.html"
+    save_study_page(study.run(engine="serial"), path, rover=study.plan.rover, terrain=study.plan.job.terrain)
+    off = []
+    for case in range(4):
+        open_page(browser, path, f"case={case}")
+        shown = np.array(state(browser, "picture.com"))
+        com = np.array(study.stance(case).com)
+        np.testing.assert_allclose(shown[:2], com[:2], atol=2e-3)
+        plain = np.array(state(browser, "picture.robots[0].com()"))
+        off.append(np.hypot(*(plain - com)[:2]))
+    assert max(off) > 0.02

@@ -80,6 +80,7 @@ def study_page(
         "joints": [str(name) for name in dataset["joint"].values],
         "varied": varied(dataset),
         "reshaped": any(name.removeprefix("parameter_") in rover.parameters for name in varied(dataset)),
+        "reweighed": any(_weighs(name, rover) for name in varied(dataset)),
         "columns": {
             name: {**column.about(), "unit": unit_of(dataset, name)} for name, column in columns.items()
         },
@@ -113,6 +114,11 @@ def _variants(
             "contacts": [[c.wheel, *(float(part) for part in c.point), c.load] for c in stance.contacts],
         }
     return variants, exact
+
+
+def _weighs(name: str, rover: Rover) -> bool:
+    """Whether a column that varies is of masses, as `Study` names them."""
+    return name.startswith(("mass_", "com_", "payload_")) and name not in rover.parameters
 
 
 def _looks(rover: Rover) -> tuple[tuple[str, float], ...]:

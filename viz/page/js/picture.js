@@ -67,8 +67,8 @@ export class Picture {
     }
     const robot = this.robot(known?.robot ?? 0);
     robot.pose(cases, chosen);
-    const com = known?.com ?? robot.com();
     const contacts = cases.settled(chosen) ? (known?.contacts ?? robot.contacts(cases, chosen, ground)) : [];
+    const com = (this.com = known?.com ?? (cases.header.reweighed ? above(contacts, robot.com()) : robot.com()));
     const first = !this.shown;
     this.shown = true;
     this.landscape.around(com[0], com[1], robot.span);
@@ -84,6 +84,13 @@ export class Picture {
     this.labels.set(labels);
     return this.marks.lightest;
   }
+}
+
+/** A centre of mass at the height of `com` over the middle of the loads: where masses vary, moments say so. */
+function above(contacts, com) {
+  const weight = contacts.reduce((sum, contact) => sum + contact[4], 0);
+  if (!(weight > 0)) return com;
+  return [...[1, 2].map((k) => contacts.reduce((sum, contact) => sum + contact[4] * contact[k], 0) / weight), com[2]];
 }
 
 function lightestOf(cases, i) {
