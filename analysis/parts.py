@@ -7,9 +7,9 @@ import errno
 import json
 import re
 import shutil
-import zipfile
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from rover_pin.errors import StudyError
 
 FINGERPRINT = "study.json"
 RESULT = "result.nc"
-_UNREADABLE = (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile)
+_NAMES = "all names"  # of a part's columns: a damaged zip may hide some of them
 _PART = re.compile(r"^(\d+)-(\d+)\.npz$")
 _FULL = (errno.ENOSPC, errno.EDQUOT)
 
@@ -78,7 +78,8 @@ class Parts:
         """
         path = self.folder / f"{chunk[0]:010d}-{chunk[1]:010d}.npz"
         with self._room():
-            atomically(path, lambda file: np.savez(file, allow_pickle=False, **columns))
+            told = {_NAMES: np.array(list(columns)), **columns}
+            atomically(path, lambda file: np.savez(file, allow_pickle=False, **told))
         self._kept[chunk] = path
         self.found.add(columns)
 
@@ -130,12 +131,12 @@ class Parts:
         """Refuse parts of another study."""
         path = self.folder / FINGERPRINT
         try:
-            kept = json.loads(path.read_text())
+            kept = dict(json.loads(path.read_text()))
         except FileNotFoundError:
             if any(_PART.match(entry.name) for entry in self.folder.iterdir()):
                 raise StudyError("says not what it belongs to", file=self.folder, cure="delete it") from None
             return
-        except (OSError, ValueError):
+        except (OSError, ValueError, TypeError):
             raise StudyError("cannot be read", file=path, cure=f"delete {self.folder}") from None
         names = [*self._fingerprint, *(name for name in kept if name not in self._fingerprint)]
         changed = [name for name in names if kept.get(name) != self._fingerprint.get(name)]
@@ -150,8 +151,8 @@ class Parts:
         for path in sorted(self.folder.iterdir()):
             named = _PART.match(path.name)
             if named:
-                with contextlib.suppress(*_UNREADABLE), np.load(path, allow_pickle=False) as file:
-                    self.found.add({name: file[name] for name in [PLAIN, *filter(is_list, file.files)]})
+                with contextlib.suppress(Exception), np.load(path, allow_pickle=False) as file:
+                    self.found.add({name: file[name] for name in [PLAIN, *filter(is_list, _names(file))]})
                     self._kept[int(named[1]), int(named[2])] = path
 
     def _load(self, chunk: Chunk) -> Columns:
@@ -159,10 +160,22 @@ class Parts:
         path = self._kept[chunk]
         try:
             with np.load(path, allow_pickle=False) as file:
-                columns = {name: file[name] for name in file.files}
+                columns = {name: file[name] for name in _names(file)}
             if count_of(columns) != chunk[1] - chunk[0]:
                 raise ValueError(f"holds {count_of(columns)} rows")
-        except _UNREADABLE as error:
+        except Exception as error:  # zip and numpy raise many kinds on damaged files
             cure = "delete it and go on with --resume"
             raise StudyError(f"this part cannot be read: {error}", file=path, cure=cure) from None
         return columns
+
+
+def _names(file: Any) -> list[str]:
+    """The columns of an open part.
+
+    Raises:
+        ValueError: not all are there.
+    """
+    names = [str(name) for name in file[_NAMES]]
+    if [_NAMES, *names] != file.files:
+        raise ValueError("not all columns are there")
+    return names

@@ -198,10 +198,20 @@ def _colours(dataset: xr.Dataset) -> list[tuple[str, str]]:
         sum(1 for there, side in zip(places, left, strict=True) if side == mine and there[0] > at[0])
         for at, mine in zip(places, left, strict=True)
     ]
+    count = 1 + max(rank)
     return [
-        (LEFT[min(k, 2)], "-") if side else (RIGHT[min(k, 2)], "--")
+        (_shade(LEFT, k, count), "-") if side else (_shade(RIGHT, k, count), "--")
         for k, side in zip(rank, left.tolist(), strict=True)
     ]
+
+
+def _shade(shades: tuple[str, ...], k: int, count: int) -> str:
+    """The k-th of some wheels' colours; between the shades where there are more wheels than shades."""
+    if count <= len(shades):
+        return shades[k]
+    from matplotlib.colors import LinearSegmentedColormap, to_hex
+
+    return to_hex(LinearSegmentedColormap.from_list("side", shades)(k / (count - 1)))
 
 
 def _word(name: object) -> str:

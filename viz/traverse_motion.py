@@ -122,6 +122,4 @@ def save_traverse_html(dataset: xr.Dataset, rover: Rover, terrain: Terrain, path
         InputError: as `traverse_run`, or the file cannot be written.
     """
     run = traverse_run(dataset, rover, terrain)
-    return save_motion_html(
-        {"traverse": run}, path, title=f"{dataset.attrs['robot']} on {dataset.attrs['terrain']}"
-    )
+    return save_motion_html({"traverse": run}, path, title=f"{dataset.attrs['robot']} along a line")

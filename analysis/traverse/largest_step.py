@@ -8,17 +8,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pinocchio as pin
 
+from rover_pin.analysis.traverse.crossing import across, check_crossing
+from rover_pin.analysis.traverse.drive import Progress, driven, unresolved
 from rover_pin.analysis.traverse.follow import Follower
 from rover_pin.analysis.traverse.path import Waypoints, places, waypoints
-from rover_pin.analysis.traverse.run import Progress, _check, default_step, driven, unresolved
+from rover_pin.analysis.traverse.run import _check, default_step
 from rover_pin.errors import InputError
 from rover_pin.terrain import Terrain
 
 if TYPE_CHECKING:
     from rover_pin.analysis.traverse.step import Step
-    from rover_pin.numerics import Array
     from rover_pin.rover import Rover
 
 RISER = 0.005
@@ -32,7 +32,7 @@ class LargestStep:
     Attributes:
         climbed: m, the largest height that it was found to climb; 0 where none.
         stopped: m, the least that stops it; inf where it climbs the highest that was asked for.
-        limit: what stops it there: `friction`, `torque`, `tip`, `belly contact` or a status; else empty.
+        limit: what stops it there: `friction`, `torque`, `leap`, `tip`, `belly contact` or a status; or "".
         why: in words.
         limiting: wheel, joint or link.
         stop_m: m along the path, where it stops there.
@@ -80,7 +80,8 @@ def largest_step(
     """Bisect over the height of a step that the rover drives up, friction and the drives' efforts given.
 
     A trial is a `traverse` of `Terrain.step(height, edge, riser)` that ends where it stops. Heights between
-    the two that are told were not tried; what lies above one that stops it is taken to stop it too.
+    the two that are told were not tried; what lies above one that stops it is taken to stop it too. Where
+    `limit` is `leap`, what higher steps ask for is not known.
 
     Args:
         rover: what climbs.
@@ -100,7 +101,8 @@ def largest_step(
         progress: called with finished and expected trials.
 
     Raises:
-        InputError: as `traverse`; a height, riser or tolerance that is not above 0.
+        InputError: as `traverse`; a height, riser or tolerance that is not above 0; a path that does not go
+            up the step.
 
     Cost: about ten traverses of 100 to 300 places; seconds to a minute.
     """
@@ -108,11 +110,15 @@ def largest_step(
     for name, value in (("highest", top), ("riser", riser), ("tolerance", tolerance)):
         if not (isinstance(value, int | float | np.floating) and math.isfinite(value) and value > 0):
             raise InputError("must be a finite number above 0", element=name, value=value, cure="give m")
+    if not math.isfinite(edge):
+        raise InputError("must be a finite number", element="edge", value=edge, cure="give m")
     _check(step, crab, friction)
     angle = crab + (math.pi if reverse else 0.0)
     points = across(rover, edge, riser, angle) if path is None else waypoints(path)
     length = default_step(rover) if step is None else float(step)
     along = places(points, length, angle)
+    if path is not None:
+        check_crossing(rover, along, edge, riser)
     how: dict[str, Any] = {"posture": posture, "joints": joints, "locks": tuple(locks), "gravity": gravity}
     expected = 1 + max(0, math.ceil(math.log2(top / tolerance)))
     tried: dict[float, list[Step]] = {}
@@ -160,14 +166,3 @@ def _answer(low: float, high: float, tried: Mapping[float, list[Step]], length: 
         trials=tuple(tried),
         climbs=tuple(steps[-1].passes for steps in tried.values()),
     )
-
-
-def across(rover: Rover, edge: float, riser: float, angle: float = 0.0) -> Array:
-    """(2, 2) m: along +x at y = 0, every wheel clear before the riser first and past the edge last."""
-    data = rover.model.createData()
-    pin.forwardKinematics(rover.model, data, np.array(rover.neutral))
-    turn = np.array([math.cos(angle), -math.sin(angle)])
-    ahead = [float(turn @ data.oMi[s.joint].act(np.array(s.center))[:2]) for s in rover.shapes]
-    reach = max(s.ring + s.tread for s in rover.shapes)
-    room = 1.2 * reach + 0.25 * rover.wheel_span
-    return np.array([[edge - riser - max(ahead) - room, 0.0], [edge - min(ahead) + room, 0.0]])

@@ -11,6 +11,7 @@ import pinocchio as pin
 import xarray as xr
 
 from rover_pin.analysis.provenance import made_by, stands_how
+from rover_pin.analysis.traverse.leap import centres
 from rover_pin.analysis.traverse.path import total
 from rover_pin.stability.measure import Standing
 
@@ -92,12 +93,10 @@ def _places(rover: Rover, terrain: Terrain, steps: Sequence[Step], joints: Seque
 
 def _centres(rover: Rover, steps: Sequence[Step]) -> Array:
     """(steps, wheels, 3) m; NaN where there is no stance."""
-    data = rover.model.createData()
     found = np.full((len(steps), len(rover.shapes), 3), np.nan)
     for k, one in enumerate(steps):
         if one.stood.stance.settled:
-            pin.forwardKinematics(rover.model, data, np.array(one.stood.stance.configuration))
-            found[k] = [data.oMi[shape.joint].act(np.array(shape.center)) for shape in rover.shapes]
+            found[k] = centres(rover, one.stood.stance)
     return found
 
 

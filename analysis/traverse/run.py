@@ -3,39 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from itertools import pairwise
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rover_pin.analysis.traverse.drive import Progress, driven, unresolved
 from rover_pin.analysis.traverse.follow import Follower
-from rover_pin.analysis.traverse.path import Place, Waypoints, check_on_map, places, waypoints
+from rover_pin.analysis.traverse.path import Waypoints, check_on_map, places, waypoints
 from rover_pin.analysis.traverse.result import as_dataset
-from rover_pin.analysis.traverse.step import Step, ask
 from rover_pin.errors import InputError
 from rover_pin.stability.report import chosen
-from rover_pin.statics.stance import Status
 
 if TYPE_CHECKING:
     import xarray as xr
 
+    from rover_pin.analysis.traverse.step import Step
     from rover_pin.rover import Rover
     from rover_pin.terrain import Terrain
-
-Progress = Callable[[int, int], None]
-"""Called with the number of places passed and of all."""
-
-TURNED = 0.2
-"""rad: a contact's normal that turns further between two places is looked at more closely."""
-
-DEPTH = 12
-"""Halvings of a step where something changes at once."""
-
-NOT_FOUND = str(Status.NO_CONVERGENCE)
-
-ASIDE = (0.1, 0.3)
-"""Where else to ask if a place has no answer, as shares of the way back to the one before."""
 
 
 def traverse(
@@ -65,7 +50,8 @@ def traverse(
     Friction is the least coefficient with which forces hold the rover, passive joints counted (Thueer et al.
     2006); torque the least possible largest torque of a driven wheel within the friction given (Noble and
     Issac 2019). Both are of rest: no rolling resistance, no speed, no turning moment. It stops where the
-    friction is not enough, where drives would need more than the URDF's `effort`, or where it does not stand.
+    friction is not enough, where drives would need more than the URDF's `effort`, where a wheel would have to
+    rise at once (`leap`), or where it does not stand.
 
     Args:
         rover: what drives.
@@ -112,94 +98,6 @@ def traverse(
     told = {**how, "step": length, "crab": angle, "friction": friction}
     data = as_dataset(rover, terrain, points, found, asked, told)
     return data.assign_attrs(unresolved_m=unresolved(found, length))
-
-
-def driven(
-    follower: Follower, along: list[Place], friction: float | None, progress: Progress | None = None
-) -> Iterator[Step]:
-    """Steps along places, closer where something changes at once."""
-    last: Step | None = None
-    for done, place in enumerate(along):
-        if progress is not None:
-            progress(done, len(along))
-        if last is None:
-            steps = iter([ask(follower.at(place, None), friction)])
-        else:
-            steps = _onto(follower, last, place, friction, DEPTH)
-        for one in steps:
-            last = one
-            yield one
-    if progress is not None:
-        progress(len(along), len(along))
-
-
-def _onto(follower: Follower, last: Step, place: Place, friction: float | None, depth: int) -> Iterator[Step]:
-    """From one place to another, by their middle first where the two differ much.
-
-    A middle where the solver finds no stance is passed over; a place of the path itself is asked beside.
-    """
-    there = ask(follower.at(place, last.stood), friction)
-    if there.limit == NOT_FOUND and depth == DEPTH:
-        there = _beside(follower, last, there, friction)
-    if there.limit == NOT_FOUND:
-        if depth == DEPTH:
-            yield there
-        return
-    if depth and last.limit != NOT_FOUND and _differ(last, there):
-        before = last
-        for each in _onto(follower, last, place.towards(last.stood.place, 0.5), friction, depth - 1):
-            yield each
-            last = each
-        if last is not before:
-            rest = list(_onto(follower, last, place, friction, depth - 1))
-            yield from rest or [there]
-            return
-    yield there
-
-
-def _beside(follower: Follower, last: Step, failed: Step, friction: float | None) -> Step:
-    """A place a little before one that has no answer, where that has one."""
-    for share in ASIDE:
-        place = failed.stood.place.towards(last.stood.place, share)
-        there = ask(follower.at(place, last.stood), friction)
-        if there.limit != NOT_FOUND:
-            return there
-    return failed
-
-
-def _differ(a: Step, b: Step) -> bool:
-    """Whether something changed at once: a contact, the stance's existence, or what stops it."""
-    if a.limit != b.limit:
-        return True
-    one, other = _normals(a), _normals(b)
-    if not one or not other:
-        return False
-    return any(_apart(one.get(wheel), other.get(wheel)) for wheel in one.keys() | other.keys())
-
-
-def _normals(step: Step) -> dict[str, list[Any]]:
-    found: dict[str, list[Any]] = {}
-    for contact in step.stood.stance.contacts:
-        found.setdefault(contact.wheel, []).append(contact.normal)
-    return found
-
-
-def _apart(one: list[Any] | None, other: list[Any] | None) -> bool:
-    """Whether a normal has none near it on the other side; a wheel that only lifts or lands has."""
-    if one is None or other is None:
-        return True
-    cosines = np.array(one) @ np.array(other).T
-    return bool(min(cosines.max(axis=0).min(), cosines.max(axis=1).min()) < math.cos(TURNED))
-
-
-def unresolved(steps: Sequence[Step], length: float) -> float:
-    """The longest way [m] over which something changes at once and no stance was found between; 0 where none.
-
-    Friction or torque may be higher there than at both its ends.
-    """
-    finest = 1.01 * length / 2**DEPTH
-    gaps = [b.stood.place.way - a.stood.place.way for a, b in pairwise(steps) if _differ(a, b)]
-    return max((gap for gap in gaps if gap > finest), default=0.0)
 
 
 def default_step(rover: Rover) -> float:

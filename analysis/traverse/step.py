@@ -41,7 +41,7 @@ class Step:
         torque: of `torque`; None where it does not stand or has no driven wheel.
         share: least largest share of the drives' efforts [-]; NaN where no drive has one, or no answer.
         share_at: the drive's wheel that has it.
-        limit: what stops it here: `friction`, `torque`, `tip`, `belly contact` or a status; else empty.
+        limit: what stops it here: `friction`, `torque`, `leap`, `tip`, `belly contact` or a status; or "".
         why: in words.
         limiting: wheel, joint or link.
     """
@@ -85,15 +85,22 @@ def ask(stood: Stood, friction: float | None) -> Step:
     share, wheel = effort_share(stance.rover, standing.problem)
     if share <= 1.0 + ROUNDING or math.isnan(share):
         return Step(stood, grip, torque, share, wheel)
-    why = f"the drives would have to give {100 * share:.0f} % of their efforts"
+    why = f"the drives would have to give {_above(100.0 * share, 100.0)} % of their efforts"
     return Step(stood, grip, torque, share, wheel, "torque", why, wheel)
+
+
+def _above(value: float, limit: float) -> str:
+    """A figure with as many digits as show that it is above the limit, four at least."""
+    texts = (f"{value:.{digits}g}" for digits in range(4, 10))
+    return next((text for text in texts if float(text) > limit), f"{value:.10g}")
 
 
 def _short(grip: Margin, problem: FrictionProblem) -> str:
     """That friction does not hold the rover, in words."""
     if np.ptp(problem.friction) > 0.0:
         return f"every contact lacks {-grip.value:.4g} of friction"
-    return f"needs friction {grip.details['least']:.4g} where there is {problem.friction[0]:.4g}"
+    given = float(problem.friction[0])
+    return f"needs friction {_above(grip.details['least'], given)} where there is {given:.4g}"
 
 
 def effort_share(rover: Rover, problem: FrictionProblem) -> tuple[float, str]:

@@ -65,8 +65,8 @@ def traverse(
         ),
     ] = False,
     measures: Annotated[
-        str, typer.Option(help="Margins along the path, by commas.", metavar="NAMES")
-    ] = "tip",
+        str | None, typer.Option(help="Margins along the path, by commas; silent: tip.", metavar="NAMES")
+    ] = None,
     friction: Annotated[str | None, typer.Option(help="Friction under every wheel.", metavar="MU")] = None,
     posture: Annotated[str | None, typer.Option(help="Posture.", metavar="NAME|clearance=M")] = None,
     joint: Annotated[
@@ -97,7 +97,7 @@ def traverse(
         from rover_pin.viz.traverse import plot_format
 
         plot_format(plot)
-    _fits(largest_step, path, terrain, files)
+    _fits(largest_step, path, terrain, {**files, "--measures": measures or None})
     how: dict[str, Any] = {
         "step": None if step is None else number(step, "--step"),
         "crab": math.radians(number(crab, "--crab")),
@@ -117,22 +117,22 @@ def traverse(
     announce_compilation()
     if ground is None:
         return _largest(rover, terrain, spacing, path, how, json)
-    names = [name.strip() for name in measures.split(",") if name.strip()]
+    names = [name.strip() for name in ("tip" if measures is None else measures).split(",") if name.strip()]
     return _drive(
         rover, ground, path or "", {**how, "measures": names, "until_stop": until_stop}, files, json
     )
 
 
-def _fits(largest: bool, path: str | None, terrain: str | None, files: dict[str, Path | None]) -> None:
+def _fits(largest: bool, path: str | None, terrain: str | None, others: dict[str, Path | str | None]) -> None:
     """Refuse options that do not go together."""
     if not largest:
         if path is None:
             raise InputError("is missing", element="--path", cure="write --path 0,0;2,0 or a CSV file's name")
         return
-    for option, file in files.items():
-        if file is not None:
+    for option, value in others.items():
+        if value is not None:
             cure = "leave it out, or traverse the step of the height that comes out"
-            raise InputError("does not go with --largest-step", element=option, value=str(file), cure=cure)
+            raise InputError("does not go with --largest-step", element=option, value=str(value), cure=cure)
     if terrain is not None and not terrain.startswith("step:"):
         raise InputError(
             "is no step, so it has no largest height",
@@ -193,6 +193,11 @@ def _largest(
 
     told = None if terrain is None else split_word(terrain)
     height, edge = (None, 0.0) if told is None else told[1]
+    for element, value in (("--terrain, HEIGHT", height), ("--spacing", spacing)):
+        if value is not None and not 0.0 < value < math.inf:
+            raise InputError("must be a finite number above 0", element=element, value=value, cure="give m")
+    if not math.isfinite(edge):
+        raise InputError("is not a finite number", element="--terrain, X", value=edge, cure="give m")
     more: dict[str, Any] = {} if spacing is None else {"riser": spacing}
     with progress_bar("heights") as progress:
         found: LargestStep = largest_step(

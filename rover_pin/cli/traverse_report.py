@@ -119,7 +119,7 @@ def print_traverse(data: xr.Dataset) -> None:
         line(f"roll {fixed(low, 2)} to {fixed(high, 2)} deg, pitch {fixed(down, 2)} to {fixed(up, 2)} deg")
     if about["unresolved_m"]:
         gap = 1e3 * float(about["unresolved_m"])
-        line(f"something changes within {gap:.2g} mm where no stance was found: a peak may be missed")
+        line(f"something changes within {gap:.2g} mm where the solver has no answer: a peak may be missed")
     if about["passed"]:
         line("passed")
         return
@@ -153,7 +153,8 @@ def print_largest(rover: Rover, found: LargestStep) -> None:
     else:
         line(f"{rover.name} climbs no step that was tried")
     if found.unresolved_m:
-        line(f"over {1e3 * found.unresolved_m:.2g} mm of its way no stance was found: a peak may be missed")
+        gap = f"{1e3 * found.unresolved_m:.2g} mm"
+        line(f"over {gap} of its way the solver has no answer: a peak may be missed")
     if math.isinf(found.stopped):
         line("that is the highest that was tried: give a higher --terrain step:HEIGHT,X")
         return

@@ -9,6 +9,7 @@ import pytest
 
 import rover_pin as rp
 from rover_pin.analysis.dataset import read
+from rover_pin.cli import main
 from rover_pin.errors import StudyError
 
 STUDY = """
@@ -56,6 +57,20 @@ def test_flipped_bits_are_told_or_harmless(result, tmp_path):
             refused += 1
             assert "\n" not in words
     assert refused > 8
+
+
+@pytest.mark.parametrize("keep", [0, 300, 0.5])
+@pytest.mark.parametrize("command", [["view", "cut.nc", "--case", "1"], ["compare", "whole.nc", "cut.nc"]])
+def test_commands_say_so_in_one_line(result, tmp_path, monkeypatch, capsys, keep, command):
+    raw = result[0].read_bytes()
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(result[0], "whole.nc")
+    (tmp_path / "cut.nc").write_bytes(raw[: keep if isinstance(keep, int) else int(keep * len(raw))])
+    assert main(command) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("error: cut.nc: is no netCDF file, or a damaged one: ")
+    assert err.count("\n") == 1
 
 
 @pytest.mark.parametrize(

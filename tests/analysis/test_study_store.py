@@ -94,6 +94,44 @@ def test_a_part_that_rots_later_is_named(tmp_path: Path) -> None:
         list(store.blocks(10))
 
 
+@given(at=st.floats(0, 1, exclude_max=True), bit=st.integers(0, 7), cut_off=st.booleans())
+@settings(max_examples=150, deadline=None, derandomize=True)
+def test_damaged_parts_are_run_again_or_named(
+    tmp_path_factory: pytest.TempPathFactory, at: float, bit: int, cut_off: bool
+) -> None:
+    out = tmp_path_factory.mktemp("parts") / "out.nc"
+    store = Parts(out, PRINT, resume=False)
+    store.begin()
+    good = rows([{"a-b": 1.0}, {}])
+    store.save((0, 2), good)
+    (path,) = store.folder.glob("*.npz")
+    damaged = bytearray(path.read_bytes())
+    damaged[int(at * len(damaged))] ^= 1 << bit
+    path.write_bytes(damaged[: int(at * len(damaged))] if cut_off else damaged)
+    again = Parts(out, PRINT, resume=True)
+    kept, told = [], ""
+    try:
+        kept = list(again.blocks(10))
+    except StudyError as error:
+        told = str(error)
+    assert "\n" not in told
+    if told:
+        assert told.startswith(f"{path}: this part cannot be read: ")
+    else:
+        assert len(kept) == len(again.done())
+        assert all(same(each, good) for each in kept)
+
+
+@pytest.mark.parametrize("text", ["[1, 2]", "3", "", "{", '"a"'])
+def test_parts_whose_fingerprint_is_damaged(tmp_path: Path, text: str) -> None:
+    store = Parts(tmp_path / "out.nc", PRINT, resume=False)
+    store.begin()
+    (store.folder / "study.json").write_text(text)
+    message = f"{store.folder}/study.json: cannot be read; delete {store.folder}"
+    with pytest.raises(StudyError, match=f"^{re.escape(message)}$"):
+        Parts(tmp_path / "out.nc", PRINT, resume=True)
+
+
 @given(
     cases=st.lists(
         st.dictionaries(st.sampled_from(["a-b", "b-a", "c-b"]), st.floats(-1, 1)), min_size=1, max_size=20

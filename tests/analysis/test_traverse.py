@@ -174,7 +174,7 @@ def test_the_motion_and_the_figure_follow_the_path(stepped, tmp_path):
         "height [m]",
     ]
     page = rp.viz.save_traverse_html(stepped, rover, terrain, tmp_path / "t.html").read_text()
-    assert "rigid4 on step:0.04,0" in page
+    assert "rigid4 along a line" in page
 
 
 def test_waypoints_from_words_numbers_and_files(tmp_path):
@@ -255,3 +255,94 @@ def test_a_path_off_the_map_and_wheels_off_the_map():
 def test_largest_steps_numbers_are_checked(name):
     with pytest.raises(InputError, match=rf"{name}: must be a finite number above 0 \(got -1.0\)"):
         largest_step(fixture("rigid4"), **{name: -1.0})
+
+
+def test_an_edge_that_is_not_a_number_and_paths_that_miss_the_step():
+    rigid = fixture("rigid4")
+    with pytest.raises(InputError, match=r"edge: must be a finite number \(got nan\)"):
+        largest_step(rigid, 0.1, edge=math.nan)
+    for path, message in (
+        ("5,0;6,0", "path: does not go up the step: where it starts, its foremost wheel is at x = 5.5 m"),
+        ("-2,0;0.4,0", "path: does not go up the step: where it ends, its rearmost wheel is at x = -0.1 m"),
+        ("-2,0;-2,3", "path: does not go up the step: where it ends, its rearmost wheel is at x = -2.4 m"),
+    ):
+        with pytest.raises(InputError) as caught:
+            largest_step(rigid, 0.1, path=path)
+        assert message in str(caught.value)
+        assert "the riser is at x = -0.005 to 0 m" in str(caught.value)
+
+
+def test_where_no_step_is_climbed_the_least_that_was_tried_is_told():
+    found = largest_step(fixture("rigid4"), 0.02, riser=RISER, tolerance=0.006, step=0.3, friction=0.02)
+    assert (found.climbed, found.limit, found.climbs) == (0.0, "friction", (False,) * 3)
+    assert found.stopped == pytest.approx(0.005)
+    assert math.isnan(found.friction_needed)
+    assert math.isnan(found.torque_needed)
+
+
+@pytest.fixture(scope="module")
+def bumps():
+    """A rocker-bogie along a line over a surface that is even in y, hence alike on both sides."""
+    terrain = rp.Terrain.from_function(
+        lambda x, y: 0.06 * np.sin(2.3 * x) * np.cos(1.7 * y) + 0.02 * np.cos(4.1 * x)
+    )
+    return terrain, traverse(rp.load("rocker_bogie"), terrain, "-0.4,0;0.4,0", step=0.1)
+
+
+def test_loads_carry_the_weight_and_sides_are_alike_all_along(bumps):
+    rover, (_, data) = rp.load("rocker_bogie"), bumps
+    np.testing.assert_allclose(data.load_n.sum("wheel"), rover.mass * 9.81, rtol=1e-8)
+    for left, right in (("fl", "fr"), ("ml", "mr"), ("bl", "br")):
+        np.testing.assert_allclose(data.load_n.sel(wheel=left), data.load_n.sel(wheel=right), rtol=1e-6)
+    np.testing.assert_allclose(data.roll_rad, 0.0, atol=1e-9)
+    assert float(np.ptp(data.load_n.sel(wheel="fl").values)) > 5.0  # there is something to tell
+
+
+def test_gravity_and_a_terrain_that_is_turned_round(bumps):
+    rover, (terrain, data) = rp.load("rocker_bogie"), bumps
+    moon = traverse(rover, terrain, "-0.4,0;0.4,0", step=0.1, gravity=1.62)
+    share = 1.62 / 9.81
+    np.testing.assert_allclose(moon.load_n, share * data.load_n, rtol=1e-6)
+    np.testing.assert_allclose(moon.torque_needed, share * data.torque_needed, atol=1e-4)
+    np.testing.assert_allclose(moon.friction_needed, data.friction_needed, atol=1e-6)
+    np.testing.assert_allclose(moon.pitch_rad, data.pitch_rad, atol=1e-9)
+    # the same places and headings, gone through the other way about: no stance remembers where it came from
+    back = traverse(rover, terrain, "0.4,0;-0.4,0", step=0.1, reverse=True)
+    assert np.cos(back.yaw_rad.values) == pytest.approx(1.0)
+    np.testing.assert_allclose(back.load_n.values[::-1], data.load_n, atol=1e-5)
+    np.testing.assert_allclose(back.friction_needed.values[::-1], data.friction_needed, atol=1e-6)
+
+
+def test_a_rover_alike_at_both_ends_asks_the_same_both_ways():
+    """Two axles, the load in the middle, on a hump even in x: forwards along +x is backwards along -x."""
+    rover = fixture("rigid4").with_payload([(11.0, (-6.0 / 11.0, -3.0 / 11.0, 0.0))])
+    np.testing.assert_allclose(rp.settle(rover, rp.Terrain.flat()).com[:2], 0.0, atol=1e-9)
+    hump = rp.Terrain.from_function(lambda x, y: 0.2 * np.exp(-(x**2)))
+    there = traverse(rover, hump, "-0.6,0;0.6,0", step=0.2)
+    again = traverse(rover, hump, "0.6,0;-0.6,0", step=0.2)
+    for name in ("friction_needed", "pitch_rad", "z_m"):
+        np.testing.assert_allclose(there[name], again[name], atol=1e-6)
+    np.testing.assert_allclose(there.torque_needed, again.torque_needed, atol=1e-3)
+    for wheel, other in (("fl", "fl"), ("br", "br")):
+        np.testing.assert_allclose(there.load_n.sel(wheel=wheel), again.load_n.sel(wheel=other), atol=1e-4)
+    # and what it asks for on the way up it asks for, the other way about, on the way down
+    np.testing.assert_allclose(there.friction_needed, there.friction_needed[::-1], atol=1e-6)
+
+
+def test_a_wheel_that_rises_at_once_stops_it_and_one_that_falls_does_not():
+    rover = rp.load("rocker_bogie")
+    terrain = rp.Terrain.step(0.13, 0.0, 0.005)  # as high as the wheels' radius
+    up = traverse(rover, terrain, "-0.9,0;-0.5,0", step=0.1, friction=2.0, measures=(), until_stop=True)
+    assert (up.attrs["passed"], up.attrs["stop_limit"]) == (0, "leap")
+    assert up.attrs["stop_at"] in {"fl", "fr"}
+    before, after = (up.wheel_m.sel(wheel=up.attrs["stop_at"]).values[k] for k in (-2, -1))
+    moved = float(np.linalg.norm(after - before))
+    assert moved > 0.02  # m, within less than a millimetre of the way
+    assert float(up.way_m[-1] - up.way_m[-2]) < 1e-3
+    assert up.attrs["stop_why"] == (
+        f"{up.attrs['stop_at']} would have to move {1e3 * moved:.3g} mm at once,"
+        " and what is asked for between is not known"
+    )
+    down = traverse(rover, terrain, "0.9,0;-0.5,0", step=0.1, friction=2.0, measures=())
+    assert "leap" not in down.limit.values
+    assert float(down.pitch_rad.max()) > 0.05

@@ -81,6 +81,11 @@ def test_the_largest_step(capsys: pytest.CaptureFixture[str]) -> None:
         (["--path", "gone.csv"], "gone.csv: path: No such file or directory"),
         (["--largest-step", "--terrain", "slope:5"], "--terrain: is no step, so it has no largest height"),
         (["--largest-step", "--csv", "t.csv"], "--csv: does not go with --largest-step"),
+        (["--largest-step", "--measures", "tip"], "--measures: does not go with --largest-step"),
+        (["--largest-step", "--terrain", "step:-1,0"], "--terrain, HEIGHT: must be a finite number above 0"),
+        (["--largest-step", "--terrain", "step:1,nan"], "--terrain, X: is not a finite number (got nan)"),
+        (["--largest-step", "--spacing", "0"], "--spacing: must be a finite number above 0 (got 0.0)"),
+        (["--largest-step", "--path", "5,0;6,0"], "path: does not go up the step: where it starts"),
     ],
 )
 def test_bad_input_is_one_line(words: list[str], line: str, capsys: pytest.CaptureFixture[str]) -> None:

@@ -208,7 +208,11 @@ def test_formulas_become_mathml_and_unknown_commands_are_refused() -> None:
 def test_the_site_builds_strictly(tmp_path: Path) -> None:
     """Every link and anchor, every formula, every docstring of the public surface."""
     shutil.rmtree(ROOT / "out" / "docs_sources", ignore_errors=True)  # as in a fresh clone
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_MKDOCS_2_WARNING": "1"}
+    environment = {
+        **os.environ,
+        "PYTHONPATH": str(ROOT),
+        "NO_MKDOCS_2_WARNING": "1",
+    }
     done = subprocess.run(
         [sys.executable, "-m", "mkdocs", "build", "-q", "--strict", "-d", str(tmp_path / "site")],
         cwd=ROOT, env=environment, capture_output=True, text=True,
