@@ -24,7 +24,7 @@ def test_a_robot_without_wheels(tmp_path):
     rover = Builder("bare").link("base_link", 5).load(tmp_path)
     text = refused(InputError, rover)
     assert "rover.yaml: wheels: nothing of this robot touches the ground" in text
-    assert "declare `wheels` (name, frame, radius, width) in a sidecar rover.yaml" in text
+    assert text.endswith("declare `wheels` (frame, radius, width) or `contacts` in it")
 
 
 @pytest.mark.parametrize("name", ["x", "y", "yaw", "gravity"])
