@@ -1,5 +1,5 @@
 /* The map: cells coloured by the worst, median or best of their cases; crosses where there is no answer. */
-import { fixed, inUnit, nice, ticks, decimalsFor } from "./format.js";
+import { element, fixed, inUnit, nice, ticks, decimalsFor } from "./format.js";
 
 const MARGIN = { left: 46, right: 10, top: 8, bottom: 34 };
 
@@ -69,25 +69,39 @@ export class MapView {
 
   draw() {
     this.fit();
-    const { ground, cells, values, scale } = this.state;
     const { w, h, k, ratio, px, py } = this.view;
     if (w < 60 || h < 60) return;
     const context = plainContext(this.canvas);
+    context.drawImage(this.still(), 0, 0);
+    context.setTransform(ratio * k, 0, 0, -ratio * k, ratio * px(0), ratio * py(0));
+    this.footprint(context, 1 / k);
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    if (!this.state.selection.count) message(context, "No case passes the filter: clear it to see them again.", w / 2, h / 2);
+  }
+
+  /** Cells, contours and axes, drawn once a size and colouring: another case moves none of them. */
+  still() {
+    const { width, height } = this.canvas;
+    const { ground, cells, values, scale } = this.state;
+    if (this.kept?.values === values && this.kept.canvas.width === width && this.kept.canvas.height === height) return this.kept.canvas;
+    const { k, ratio, px, py } = this.view;
+    const canvas = element("canvas");
+    Object.assign(canvas, { width, height });
+    const context = plainContext(canvas);
     const frame = [px(ground.x0), py(ground.y1), k * (ground.x1 - ground.x0), k * (ground.y1 - ground.y0)];
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    context.clearRect(0, 0, w, h);
     context.fillStyle = "#eef1f3";
     context.fillRect(...frame);
     context.save();
     context.setTransform(ratio * k, 0, 0, -ratio * k, ratio * px(0), ratio * py(0));
     paintCells(context, cells, values, scale, { pixel: 1 / k });
     this.contours(context);
-    this.footprint(context, 1 / k);
     context.restore();
     context.strokeStyle = "#9aa6b2";
     context.strokeRect(...frame);
     this.axes(context);
-    if (!this.state.selection.count) message(context, "No case passes the filter: clear it to see them again.", w / 2, h / 2);
+    this.kept = { values, canvas };
+    return canvas;
   }
 
   /** The contours, drawn once a size. */
@@ -96,7 +110,7 @@ export class MapView {
     const transform = context.getTransform();
     const key = `${width} ${height} ${transform}`;
     if (this.lines?.key !== key) {
-      const canvas = document.createElement("canvas");
+      const canvas = element("canvas");
       Object.assign(canvas, { width, height });
       const own = plainContext(canvas);
       own.setTransform(transform);
