@@ -10,17 +10,22 @@ class Bench:
 
     Attributes:
         now: what the clock tells.
+        read: what it told last.
         answers: what the operator says.
         thinks: s that go by while the operator is asked.
         told: action, reason, count and deadline of each reminder.
     """
 
     def __init__(self, patience=10.0):
-        self.now = 0.0
+        self.now = self.read = 0.0
         self.answers = False
         self.thinks = 0.0
         self.told = []
-        self.supervisor = Supervisor(lambda: self.now, self._operator, patience)
+        self.supervisor = Supervisor(self._clock, self._operator, patience)
+
+    def _clock(self):
+        self.read = self.now
+        return self.now
 
     def _operator(self, reminder):
         self.told.append((reminder.action, reminder.reason, reminder.count, reminder.deadline))

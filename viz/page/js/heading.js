@@ -13,6 +13,8 @@ export class Heading {
     if (about.created) this.apart.push(String(about.created).slice(0, 10));
     this.chips();
     byId("clear").addEventListener("click", () => state.clear());
+    const head = document.querySelector("header"); // chips may take two lines; the rest of the window is the page's
+    new ResizeObserver(() => document.documentElement.style.setProperty("--head", `${head.offsetHeight}px`)).observe(head);
   }
 
   chips() {
