@@ -11,11 +11,13 @@ import typer
 from rover_pin.cli.options import (
     HeightOffset,
     HeightScale,
+    Interpolation,
     Json,
     OwnGravity,
     Packages,
     Payload,
     SkipIncludes,
+    Spacing,
     altered,
     pairs,
 )
@@ -39,8 +41,8 @@ def compare(
     terrain: Annotated[
         str | None, typer.Option(help="A height map's file, flat, slope:DEG, rough:SEED,RMS,HURST, ...")
     ] = None,
-    spacing: Annotated[float | None, typer.Option(help="Of the map's nodes, m.", metavar="M")] = None,
-    interpolation: Annotated[str, typer.Option(help="Of the map: smooth or linear.")] = "smooth",
+    spacing: Spacing = None,
+    interpolation: Interpolation = "smooth",
     height_scale: HeightScale = None,
     height_offset: HeightOffset = 0.0,
     cases: Annotated[

@@ -36,6 +36,14 @@ HeightScale = Annotated[
     float | None, typer.Option(help="Metres a grey level of a PNG, or a unit of another map.", metavar="M")
 ]
 HeightOffset = Annotated[float, typer.Option(help="Height where the map holds 0, m.", metavar="M")]
+Spacing = Annotated[float | None, typer.Option(help="Of the map's nodes, m.", metavar="M")]
+Interpolation = Annotated[str, typer.Option(help="Of the map: smooth or linear.")]
+Posture = Annotated[str | None, typer.Option(help="Posture.", metavar="NAME|clearance=M")]
+Joints = Annotated[
+    list[str] | None, typer.Option("--joint", help="Hold a joint, rad or m.", metavar="NAME=VALUE")
+]
+Locks = Annotated[list[str] | None, typer.Option("--lock", help="Lock a passive joint.", metavar="NAME")]
+Friction = Annotated[str | None, typer.Option(help="Friction under every wheel.", metavar="MU")]
 Gravity = Annotated[str, typer.Option(help="m/s2, or earth, moon, mars, ...", metavar="G")]
 OwnGravity = Annotated[
     str | None,

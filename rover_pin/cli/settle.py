@@ -8,16 +8,22 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rover_pin.cli.options import (
+    Friction,
     Gravity,
     HeightOffset,
     HeightScale,
+    Interpolation,
+    Joints,
     Json,
+    Locks,
     Packages,
     Parameters,
     Payload,
+    Posture,
     Robot,
     Sidecar,
     SkipIncludes,
+    Spacing,
     coefficient,
     load_rover,
     loaded,
@@ -38,20 +44,18 @@ def settle(
     terrain: Annotated[
         str, typer.Option(help="A height map's file, flat, slope:DEG, step:HEIGHT,X or rough:SEED,RMS,HURST.")
     ] = "flat",
-    spacing: Annotated[float | None, typer.Option(help="Of the map's nodes, m.")] = None,
-    interpolation: Annotated[str, typer.Option(help="Of the map: smooth or linear.")] = "smooth",
+    spacing: Spacing = None,
+    interpolation: Interpolation = "smooth",
     height_scale: HeightScale = None,
     height_offset: HeightOffset = 0.0,
     at: Annotated[str, typer.Option(help="Place and heading.", metavar="X,Y,YAW_DEG")] = "0,0,0",
-    posture: Annotated[str | None, typer.Option(help="Posture.", metavar="NAME|clearance=M")] = None,
-    joint: Annotated[
-        list[str] | None, typer.Option(help="Hold a joint, rad or m.", metavar="NAME=VALUE")
-    ] = None,
-    lock: Annotated[list[str] | None, typer.Option(help="Lock a passive joint.", metavar="NAME")] = None,
+    posture: Posture = None,
+    joint: Joints = None,
+    lock: Locks = None,
     param: Parameters = None,
     gravity: Gravity = "earth",
     payload: Payload = None,
-    friction: Annotated[str | None, typer.Option(help="Friction under every wheel.", metavar="MU")] = None,
+    friction: Friction = None,
     resistance: Annotated[
         str, typer.Option(help="Motion resistance against the heading.", metavar="NEWTON")
     ] = "0",

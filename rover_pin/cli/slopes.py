@@ -9,11 +9,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from rover_pin.cli.options import (
+    Friction,
     Gravity,
+    Joints,
     Json,
+    Locks,
     Packages,
     Parameters,
     Payload,
+    Posture,
     Robot,
     Sidecar,
     SkipIncludes,
@@ -33,12 +37,10 @@ def slopes(
     package: Packages = None,
     skip_missing_includes: SkipIncludes = False,
     headings: Annotated[int, typer.Option(help="How many, evenly over the circle.", metavar="N")] = 24,
-    friction: Annotated[str | None, typer.Option(help="Friction under every wheel.", metavar="MU")] = None,
-    posture: Annotated[str | None, typer.Option(help="Posture.", metavar="NAME|clearance=M")] = None,
-    joint: Annotated[
-        list[str] | None, typer.Option(help="Hold a joint, rad or m.", metavar="NAME=VALUE")
-    ] = None,
-    lock: Annotated[list[str] | None, typer.Option(help="Lock a passive joint.", metavar="NAME")] = None,
+    friction: Friction = None,
+    posture: Posture = None,
+    joint: Joints = None,
+    lock: Locks = None,
     param: Parameters = None,
     gravity: Gravity = "earth",
     payload: Payload = None,

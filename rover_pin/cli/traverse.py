@@ -9,16 +9,22 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from rover_pin.cli.options import (
+    Friction,
     Gravity,
     HeightOffset,
     HeightScale,
+    Interpolation,
+    Joints,
     Json,
+    Locks,
     Packages,
     Parameters,
     Payload,
+    Posture,
     Robot,
     Sidecar,
     SkipIncludes,
+    Spacing,
     coefficient,
     load_rover,
     loaded,
@@ -47,8 +53,8 @@ def traverse(
         str | None,
         typer.Option(help="A height map's file, flat, slope:DEG, step:HEIGHT,X or rough:SEED,RMS,HURST."),
     ] = None,
-    spacing: Annotated[float | None, typer.Option(help="Of the map's nodes, m.")] = None,
-    interpolation: Annotated[str, typer.Option(help="Of the map: smooth or linear.")] = "smooth",
+    spacing: Spacing = None,
+    interpolation: Interpolation = "smooth",
     height_scale: HeightScale = None,
     height_offset: HeightOffset = 0.0,
     step: Annotated[
@@ -67,12 +73,10 @@ def traverse(
     measures: Annotated[
         str | None, typer.Option(help="Margins along the path, by commas; silent: tip.", metavar="NAMES")
     ] = None,
-    friction: Annotated[str | None, typer.Option(help="Friction under every wheel.", metavar="MU")] = None,
-    posture: Annotated[str | None, typer.Option(help="Posture.", metavar="NAME|clearance=M")] = None,
-    joint: Annotated[
-        list[str] | None, typer.Option(help="Hold a joint, rad or m.", metavar="NAME=VALUE")
-    ] = None,
-    lock: Annotated[list[str] | None, typer.Option(help="Lock a passive joint.", metavar="NAME")] = None,
+    friction: Friction = None,
+    posture: Posture = None,
+    joint: Joints = None,
+    lock: Locks = None,
     param: Parameters = None,
     gravity: Gravity = "earth",
     payload: Payload = None,
