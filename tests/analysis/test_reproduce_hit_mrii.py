@@ -111,7 +111,7 @@ def test_soil_is_not_reproduced():
 def test_every_row_of_the_command(capsys, tmp_path, monkeypatch):
     """The whole paper: some 80 rows, its figures and a page that plays the tasks."""
     monkeypatch.setattr(runs, "CYCLE", 0.2)
-    monkeypatch.setattr(runs, "SAMPLE", 4.0)
+    monkeypatch.setattr(runs, "SAMPLE", 12.0)
     code = main(["reproduce", "hit_mrii", "--json", "--motion", str(tmp_path / "tasks.html")])
     assert code == 0
     rows = json.loads(capsys.readouterr().out)
