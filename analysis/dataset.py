@@ -69,16 +69,31 @@ def attributes(study: Study, found: Found) -> dict[str, Any]:
 
 
 def read(path: Path) -> xr.Dataset:
-    """A study's result from its file, opened lazily: values are read where they are used.
+    """A study's result from its file: looked through once for damage, then read where values are used.
 
     A variable that is used whole stays in memory; `data.isel(case=slice(a, b))` reads that much and keeps
     nothing.
 
     Raises:
-        StudyError: no such file, or not the result of a study.
+        StudyError: no such file, not the result of a study, or a damaged one.
     """
     from rover_pin.analysis.sound import check_sound
 
+    data = opened(path)
+    try:
+        check_sound(data, path)
+    except StudyError:
+        data.close()
+        raise
+    return data
+
+
+def opened(path: Path) -> xr.Dataset:
+    """As `read`, but not looked through: for a result that was just written.
+
+    Raises:
+        StudyError: no such file, or not the result of a study.
+    """
     if not path.is_file():
         raise StudyError("no such file", file=path, cure="make one with rover-pin study -o")
     try:
@@ -88,10 +103,5 @@ def read(path: Path) -> xr.Dataset:
     if "study" not in data.attrs or "status" not in data or CASE not in data.sizes:
         data.close()
         raise StudyError("is not the result of a study", file=path, cure="make one with rover-pin study -o")
-    try:
-        check_sound(data, path)
-    except StudyError:
-        data.close()
-        raise
     # A range index: the numbers of the cases take no memory, however many there are.
     return data.assign_coords({CASE: pd.RangeIndex(data.sizes[CASE])})

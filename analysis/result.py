@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import xarray as xr
 
-from rover_pin.analysis.dataset import attributes, read
+from rover_pin.analysis.dataset import attributes, opened
 from rover_pin.analysis.disk import check_room, result_bytes
 from rover_pin.analysis.found import found_in
 from rover_pin.analysis.netcdf import BLOCK, write
@@ -53,4 +53,4 @@ def save_result(study: Study, parts: Parts) -> xr.Dataset:
 
     about = attributes(study, parts.found)
     parts.finish(lambda path: write(path, form, blocks(), len(job.cases), about))
-    return read(parts.out)
+    return opened(parts.out)

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-import pinocchio as pin
 
+from rover_pin.analysis.traverse.centres import centres
 from rover_pin.errors import InputError
 
 if TYPE_CHECKING:
@@ -27,10 +27,8 @@ def across(rover: Rover, edge: float, riser: float, angle: float = 0.0) -> Array
 
 def _ahead(rover: Rover, yaw: float) -> list[float]:
     """m: how far along +x each wheel's centre lies from the root link's origin, joints at zero."""
-    data = rover.model.createData()
-    pin.forwardKinematics(rover.model, data, np.array(rover.neutral))
     turn = np.array([math.cos(yaw), -math.sin(yaw)])
-    return [float(turn @ data.oMi[s.joint].act(np.array(s.center))[:2]) for s in rover.shapes]
+    return [float(turn @ centre[:2]) for centre in centres(rover, rover.neutral)]
 
 
 def check_crossing(rover: Rover, along: Sequence[Place], edge: float, riser: float) -> None:

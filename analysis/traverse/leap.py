@@ -8,30 +8,17 @@ let it down were it let go. What they ask for is not worked out, so that such a 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
-import pinocchio as pin
 
+from rover_pin.analysis.traverse.centres import centres
 from rover_pin.analysis.traverse.step import Step
-
-if TYPE_CHECKING:
-    from rover_pin.numerics import Array
-    from rover_pin.rover import Rover
-    from rover_pin.statics.stance import Stance
 
 LEAP = 0.02
 """Of a wheel's radius: what its centre may move at once. On an edge it turns the normal by as many rad."""
 
 FASTEST = 3.0
 """What a wheel's centre may move for each m that the root link does."""
-
-
-def centres(rover: Rover, stance: Stance) -> Array:
-    """(wheels, 3) m, world."""
-    data = rover.model.createData()
-    pin.forwardKinematics(rover.model, data, np.array(stance.configuration))
-    return np.array([data.oMi[shape.joint].act(np.array(shape.center)) for shape in rover.shapes])
 
 
 def checked(last: Step, there: Step) -> Step:
@@ -45,7 +32,7 @@ def checked(last: Step, there: Step) -> Step:
     rover = after.rover
     a, b = last.stood.place, there.stood.place
     gone = abs(b.way - a.way) + rover.wheel_span * abs(b.yaw - a.yaw)
-    moved = centres(rover, after) - centres(rover, before)
+    moved = centres(rover, after.configuration) - centres(rover, before.configuration)
     radii = np.array([shape.ring + shape.tread for shape in rover.shapes])
     excess = np.linalg.norm(moved, axis=1) - FASTEST * gone - LEAP * radii
     worst = int(np.argmax(excess))

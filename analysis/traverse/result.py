@@ -7,11 +7,10 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pinocchio as pin
 import xarray as xr
 
 from rover_pin.analysis.provenance import made_by, stands_how
-from rover_pin.analysis.traverse.leap import centres
+from rover_pin.analysis.traverse.centres import centres
 from rover_pin.analysis.traverse.path import total
 from rover_pin.stability.measure import Standing
 
@@ -62,8 +61,8 @@ def _places(rover: Rover, terrain: Terrain, steps: Sequence[Step], joints: Seque
         [s.loads.get(shape.name, 0.0) if s.settled else math.nan for shape in rover.shapes] for s in stances
     ]
     x, y = np.array([p.x for p in at]), np.array([p.y for p in at])
-    centres = _centres(rover, steps)
-    under = np.array(terrain.height(centres[..., 0], centres[..., 1]))
+    middles = _centres(rover, steps)
+    under = np.array(terrain.height(middles[..., 0], middles[..., 1]))
     lengths = ", ".join(name for name in joints if not turns[name])
     return {
         "way_m": _told([p.way for p in at], "driven since the first waypoint", "m"),
@@ -80,7 +79,7 @@ def _places(rover: Rover, terrain: Terrain, steps: Sequence[Step], joints: Seque
             values,
             {"units": "rad", "long_name": "places of joints that drive no wheel", "in_m": lengths},
         ),
-        "wheel_m": ((STEP, WHEEL, AXIS), centres, _about("centres of wheels, world", "m")),
+        "wheel_m": ((STEP, WHEEL, AXIS), middles, _about("centres of wheels, world", "m")),
         "under_m": ((STEP, WHEEL), under, _about("height of the ground under wheels", "m")),
         "load_n": ((STEP, WHEEL), np.array(loads), _about("load against gravity", "N")),
         "status": _told([str(s.status) for s in stances], "how it stands"),
@@ -96,15 +95,8 @@ def _centres(rover: Rover, steps: Sequence[Step]) -> Array:
     found = np.full((len(steps), len(rover.shapes), 3), np.nan)
     for k, one in enumerate(steps):
         if one.stood.stance.settled:
-            found[k] = centres(rover, one.stood.stance)
+            found[k] = centres(rover, one.stood.stance.configuration)
     return found
-
-
-def _at_home(rover: Rover) -> Array:
-    """(wheels, 3) m."""
-    data = rover.model.createData()
-    pin.forwardKinematics(rover.model, data, np.array(rover.neutral))
-    return np.array([data.oMi[shape.joint].act(np.array(shape.center)) for shape in rover.shapes])
 
 
 def _asked(rover: Rover, steps: Sequence[Step]) -> dict[str, Any]:
@@ -137,7 +129,11 @@ def _asked(rover: Rover, steps: Sequence[Step]) -> dict[str, Any]:
         "why": _told([s.why for s in steps], "in words"),
         "limiting": _told([s.limiting for s in steps], "wheel, joint or link"),
         "radius_m": (WHEEL, [s.ring + s.tread for s in rover.shapes], _about("of wheels and feet", "m")),
-        "home_m": ((WHEEL, AXIS), _at_home(rover), _about("centres in the root link's frame at home", "m")),
+        "home_m": (
+            (WHEEL, AXIS),
+            centres(rover, rover.neutral),
+            _about("centres in the root link's frame at home", "m"),
+        ),
         "friction_declared": (WHEEL, declared, _about("coefficient that the shape declares", "1")),
         "effort_nm": (WHEEL, efforts, _about("the drive's effort; NaN where it has none", "N m")),
     }
